@@ -1,0 +1,62 @@
+# Build conventions shared by every folder: language level, warnings, sanitizers, ccache,
+# and the few helper functions that keep each CMakeLists.txt a list of sources.
+include(GNUInstallDirs)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+
+find_program(ANEMONE_CCACHE ccache)
+if(ANEMONE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${ANEMONE_CCACHE}")
+endif()
+
+add_library(anemone_flags INTERFACE)
+target_compile_options(anemone_flags INTERFACE -Wall -Wextra -Wshadow -Wconversion
+  -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual -Werror)
+# Results must not depend on which operations a compiler chose to contract, and infinities and
+# NaNs follow IEEE 754: shaders rely on both.
+target_compile_options(anemone_flags INTERFACE -ffp-contract=off -fno-math-errno)
+if(ANEMONE_SANITIZE)
+  target_compile_options(anemone_flags INTERFACE -fsanitize=${ANEMONE_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(anemone_flags INTERFACE -fsanitize=${ANEMONE_SANITIZE})
+endif()
+
+# sl_library(NAME sources... [PUBLIC libs...] [PRIVATE libs...]): a static library whose headers
+# are included from the repository root ("slvm/machine.h").
+function(sl_library name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  add_library(${name} STATIC ${arg_UNPARSED_ARGUMENTS})
+  target_include_directories(${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/anemone>)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE $<BUILD_INTERFACE:anemone_flags> ${arg_PRIVATE})
+endfunction()
+
+# sl_tool(NAME sources... LIBS libs...): a command-line program, installed.
+function(sl_tool name)
+  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE anemone_flags ${arg_LIBS})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endfunction()
+
+# sl_unit_test(NAME sources... LIBS libs...): a GoogleTest binary whose cases CTest lists one by one.
+function(sl_unit_test name)
+  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+  add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE anemone_flags ${arg_LIBS} GTest::gtest_main GTest::gmock)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS fast)
+endfunction()
