@@ -1,0 +1,142 @@
+// The virtual machine: load compiled shaders, bind parameter values, run them on grids, read what they computed.
+// PUBLIC; the way in for renderers.
+//
+//   slvm::Machine machine;                                    // one for all threads
+//   auto shader = machine.load_file("plastic.slo");           // verified; Result<std::shared_ptr<const Shader>>
+//   auto plastic = machine.instantiate(*shader, {{"Kd", {...}}}, {});
+//   slvm::ShadingContext context(machine, services);          // one for each thread
+//   context.shade({.surface = plastic->get()}, grid);         // fills Ci, Oi
+//   grid.variable(slvm::Global::kCi).get(0, point);
+#pragma once
+
+#include "slvm/format/program.h"
+#include "slvm/grid.h"
+#include "slvm/renderer_services.h"
+#include "slvm/support/result.h"
+#include "slvm/support/string_pool.h"
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slvm {
+
+struct KernelTable;
+
+struct MachineOptions {
+  /// Points a strip: how many are taken through a run of instructions at a time. A multiple of 16; results do not
+  /// depend on it.
+  uint32_t strip_points = 128;
+  /// Instruction set by name ("AVX3", "AVX2", "SSE4", "EMU128"...); empty: the best this processor has.
+  std::string target;
+  /// Re-run the optimiser on each instance with its parameter values folded in.
+  bool specialise = true;
+  /// Fill registers with signalling NaN before each run, so that a read of an unset value shows.
+  bool poison_registers = false;
+};
+
+/// A compiled shader, loaded and verified. Immutable, shared between threads.
+class Shader {
+public:
+  const Program& program() const { return program_; }
+  const std::string& name() const { return program_.name; }
+  ShaderKind kind() const { return program_.kind; }
+
+private:
+  friend class Machine;
+  Program program_;
+};
+
+/// A parameter value as a scene gives it. Points, vectors, normals and matrices are in the shader's own space.
+struct ParamValue {
+  std::string name;
+  Value value;
+};
+
+struct InstanceOptions {
+  /// "shader" to "current": the transformation at the scene's request for this shader.
+  Matrix4 shader_to_current;
+  /// Names of parameters that primitives may override by primitive variables: not folded in as constants.
+  std::vector<std::string> may_vary;
+};
+
+/// A shader with parameter values: what a primitive, or the list of lights, refers to. Immutable.
+class Instance {
+public:
+  ~Instance();
+  const Shader& shader() const { return *shader_; }
+  const Matrix4& shader_to_current() const { return shader_to_current_; }
+  /// The program that runs: the shader's own, or its specialisation for these values.
+  const Program& program() const { return specialised_ ? *specialised_ : shader_->program(); }
+  /// For lights: the names in __category, in order.
+  std::span<const std::string> categories() const { return categories_; }
+
+private:
+  friend class Machine;
+  friend class ShadingContext;
+  Instance() = default;
+  std::shared_ptr<const Shader> shader_;
+  std::unique_ptr<const Program> specialised_;
+  Matrix4 shader_to_current_, current_to_shader_;
+  std::vector<std::string> categories_;
+  struct Bound; // parameter and constant planes, decoded code
+  std::unique_ptr<Bound> bound_;
+};
+
+class Machine {
+public:
+  explicit Machine(MachineOptions options = {});
+  ~Machine();
+
+  /// Verifies and takes a compiled shader. The error says what is wrong with the file.
+  Result<std::shared_ptr<const Shader>> load(std::span<const std::byte> slo) const;
+  Result<std::shared_ptr<const Shader>> load_file(const std::string& path) const;
+
+  /// Binds parameter values. Errors: an unknown parameter (with the nearest name), a wrong type or array length, a
+  /// built-in function this build cannot serve.
+  Result<std::unique_ptr<Instance>> instantiate(std::shared_ptr<const Shader>, std::span<const ParamValue>,
+                                                const InstanceOptions& = {}) const;
+
+  const MachineOptions& options() const { return options_; }
+  StringPool& strings() const { return strings_; }
+  const KernelTable& kernels() const { return *kernels_; }
+
+  /// Run-time messages so far, each once with its count, in order of file and line.
+  std::vector<RuntimeMessage> messages() const;
+  void report(const RuntimeMessage&) const;
+
+private:
+  MachineOptions options_;
+  const KernelTable* kernels_;
+  mutable StringPool strings_;
+  mutable std::mutex messages_mutex_;
+  mutable std::vector<RuntimeMessage> messages_;
+};
+
+/// Runs instances on grids: registers, masks, light results. One for each thread; not thread-safe.
+class ShadingContext {
+public:
+  ShadingContext(const Machine&, RendererServices&);
+  ~ShadingContext();
+
+  /// Runs displacement, surface and atmosphere, those that are there, in this order, with message passing between
+  /// them. Ci and Oi start as Cs and Os (all 1 when these are not set). Missing input variables have defaults.
+  void shade(const ShaderSet&, Grid&);
+  /// Only the displacement shader: moves P, and N if it sets it.
+  void displace(const ShaderSet&, Grid&);
+  /// The rest of shade(), after displace() on the same grid.
+  void shade_displaced(const ShaderSet&, Grid&);
+  /// One shader of any kind by itself (imagers; lights in tests: set Ps, read Cl and L).
+  void run(const Instance&, Grid&);
+
+  /// Values of an output parameter after the run; valid until the next one. Null: no such parameter.
+  const Planes* output(const Instance&, std::string_view name) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace slvm
