@@ -1,0 +1,121 @@
+// spline() (RISpec 3.2, 15.1) for any basis and number of knots, the knots as arguments or in an array. These
+// kernels are raw: lanes fall into different segments, so each collects its own four knots.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slvm/kernels/spline.cpp"
+#include <hwy/foreach_target.h>
+
+#include "slvm/wide/lanes.h"
+
+#include "slvm/kernels/rows.h"
+#include "slvm/kernels/spline_basis.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace slvm {
+namespace HWY_NAMESPACE {
+
+/// The operands from `first` on: one array, or one knot each.
+struct Knots {
+  const Operand* first;
+  uint32_t operands;
+
+  uint32_t count() const { return operands == 1 ? first->elements : operands; }
+  float value(uint32_t knot, size_t component, size_t components, size_t lane) const {
+    const Operand& o = operands == 1 ? *first : first[knot];
+    size_t element = operands == 1 ? knot : 0;
+    return o.plane(element * components + component)[load_offset(o, lane)];
+  }
+};
+
+template <size_t kComponents> struct Spline {
+  SplineBasis basis;
+  Knots knots;
+
+  struct Point {
+    Float value[kComponents];
+  };
+
+  /// The spline at x, clamped to [0, 1], for the lanes from `lane` on. 0 with less than four knots.
+  HWY_INLINE Point at(Float x, size_t lane) const {
+    uint32_t segments = basis.segments(knots.count());
+    if (segments == 0) return zero();
+    Float along = keep_if(x > 0.0f, min(x, 1.0f)) * static_cast<float>(segments);
+    Float segment = min(floor(along), static_cast<float>(segments - 1));
+    HWY_ALIGN uint32_t first_knot[kWidth];
+    hn::Store((to_int(segment) * Bits(basis.step)).v, BitsTag(), first_knot);
+    Point r;
+    for (size_t c = 0; c < kComponents; ++c)
+      r.value[c] = cubic(first_knot, c, lane, along - segment);
+    return r;
+  }
+
+  HWY_INLINE Float cubic(const uint32_t (&first_knot)[kWidth], size_t component, size_t lane, Float t) const {
+    HWY_ALIGN float collected[4][kWidth];
+    for (size_t i = 0; i < kWidth; ++i)
+      for (uint32_t k = 0; k < 4; ++k)
+        collected[k][i] = knots.value(first_knot[i] + k, component, kComponents, lane + i);
+    Float knot[4], coefficient[4];
+    for (int k = 0; k < 4; ++k)
+      knot[k] = hn::Load(FloatTag(), collected[k]);
+    for (int p = 0; p < 4; ++p) {
+      const float(&row)[4] = basis.matrix[p];
+      coefficient[p] = knot[0] * row[0] + knot[1] * row[1] + knot[2] * row[2] + knot[3] * row[3];
+    }
+    return ((coefficient[0] * t + coefficient[1]) * t + coefficient[2]) * t + coefficient[3];
+  }
+
+  /// The x in [0, 1] where a monotonic spline has the value y, by bisection to 2^-25.
+  HWY_INLINE Point solved(Float y, size_t lane) const {
+    constexpr int kSteps = 25;
+    Float low = 0.0f, high = 1.0f;
+    Bool rising = at(0.0f, lane).value[0] <= at(1.0f, lane).value[0];
+    for (int i = 0; i < kSteps; ++i) {
+      Float middle = 0.5f * (low + high), value = at(middle, lane).value[0];
+      Bool right = (rising & (value < y)) | ((!rising) & (value > y));
+      low = select(right, middle, low);
+      high = select(right, high, middle);
+    }
+    Point r = zero();
+    r.value[0] = 0.5f * (low + high);
+    return r;
+  }
+
+  static HWY_INLINE Point zero() {
+    Point r;
+    for (Float& value : r.value)
+      value = 0.0f;
+    return r;
+  }
+
+  void run(const Operand& result, const Operand& x, size_t lanes) const {
+    for (size_t lane = 0; lane < lanes; lane += kWidth) {
+      Float along = loaded<Float>(x, lane);
+      Point r = basis.solve ? solved(along, lane) : at(along, lane);
+      for (size_t c = 0; c < kComponents; ++c)
+        store(result, lane, r.value[c], c);
+    }
+  }
+};
+
+inline void spline_f(const Operand* o, uint32_t count, size_t lanes, const KernelContext&) {
+  Spline<1>{kCatmullRom, {o + 2, count - 2}}.run(o[0], o[1], lanes);
+}
+inline void spline_v(const Operand* o, uint32_t count, size_t lanes, const KernelContext&) {
+  Spline<3>{kCatmullRom, {o + 2, count - 2}}.run(o[0], o[1], lanes);
+}
+inline void basisspline_f(const Operand* o, uint32_t count, size_t lanes, const KernelContext& context) {
+  Spline<1>{spline_basis(string_operand(o[1], context)), {o + 3, count - 3}}.run(o[0], o[2], lanes);
+}
+/// Triples have no inverse: "solve" is ignored.
+inline void basisspline_v(const Operand* o, uint32_t count, size_t lanes, const KernelContext& context) {
+  SplineBasis basis = spline_basis(string_operand(o[1], context));
+  basis.solve = false;
+  Spline<3>{basis, {o + 3, count - 3}}.run(o[0], o[2], lanes);
+}
+
+#define SL_FAMILY fill_spline
+#include "slvm/kernels/rows.inc"
+#undef SL_FAMILY
+
+} // namespace HWY_NAMESPACE
+} // namespace slvm
+HWY_AFTER_NAMESPACE();
