@@ -1,0 +1,283 @@
+// The frame loop. Order of work:
+//   1. split: every primitive, in parallel, into GridTasks (a few dozen bytes each);
+//   2. bin: each bucket gets the list of tasks that may touch it, nearest first;
+//   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are closed. A grid
+//      is diced and shaded by the first bucket that needs it and freed by the last one in whose list it is, so the
+//      grids in memory are those of about one row of buckets.
+#include "render/hider/frame.h"
+
+#include "render/hider/random.h"
+#include "render/hider/sample_buffer.h"
+#include "render/prims/dice.h"
+#include "render/prims/split.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+namespace render {
+
+namespace {
+
+struct Bucket {
+  PixelRect rect;
+  std::vector<uint32_t> tasks;
+};
+
+/// The shared, shaded form of one task.
+struct GridSlot {
+  static constexpr uint8_t kNew = 0, kBusy = 1, kDone = 2;
+  std::atomic<uint8_t> state{kNew};
+  std::atomic<uint32_t> users{0}; ///< buckets that may still ask for it
+  std::unique_ptr<const ShadedGrid> grid;
+};
+
+class FrameRenderer {
+public:
+  FrameRenderer(const Scene& scene, Shading& shading, const FrameSettings& settings)
+      : scene_(scene), options_(scene.options), shading_(shading), settings_(settings), camera_(scene.options) {
+    for (const AovChannel& c : settings.aovs) aov_floats_ += c.components;
+    sampling_ = SamplingSettings::from(options_, aov_floats_);
+    threads_ = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
+    image_ = Image(camera_.crop(), aov_floats_);
+  }
+
+  Image run(FrameReport& report);
+
+private:
+  struct Worker {
+    std::unique_ptr<GridShader> shader;
+    slvm::Grid grid{2, 2};
+    size_t shaded_grids = 0, shaded_points = 0, bad_colours = 0;
+  };
+
+  void split_all();
+  void make_buckets();
+  void render_bucket(Bucket& bucket, Worker& worker);
+  const ShadedGrid* shaded(uint32_t task, Worker& worker);
+  std::unique_ptr<const ShadedGrid> shade(uint32_t task, Worker& worker);
+  void expose(const PixelRect& rect);
+  void run_imager(const PixelRect& rect, Worker& worker);
+  void report_progress();
+
+  const Scene& scene_;
+  const Options& options_;
+  Shading& shading_;
+  const FrameSettings& settings_;
+  Camera camera_;
+  SamplingSettings sampling_;
+  int aov_floats_ = 0;
+  int threads_;
+  Image image_;
+  std::vector<GridTask> tasks_;
+  std::unique_ptr<GridSlot[]> slots_;
+  std::vector<Bucket> buckets_;
+  std::atomic<size_t> next_bucket_{0};
+  std::mutex progress_mutex_;
+  size_t finished_buckets_ = 0;
+};
+
+Image FrameRenderer::run(FrameReport& report) {
+  report.primitives += scene_.primitives.size();
+  if (image_.rect.empty()) return std::move(image_);
+  tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads_));
+  tbb::task_arena arena(threads_);
+  std::vector<Worker> workers(static_cast<size_t>(threads_));
+  arena.execute([&] {
+    split_all();
+    make_buckets();
+    // One task a thread, each taking buckets in scan order: that keeps the life of grids short.
+    tbb::parallel_for(size_t{0}, workers.size(), [&](size_t w) {
+      Worker& worker = workers[w];
+      for (size_t b; (b = next_bucket_.fetch_add(1)) < buckets_.size();) {
+        if (!worker.shader) worker.shader = shading_.make_grid_shader();
+        render_bucket(buckets_[b], worker);
+        report_progress();
+      }
+    });
+  });
+  report.grids += tasks_.size();
+  for (const Worker& w : workers) {
+    report.shaded_grids += w.shaded_grids;
+    report.shaded_points += w.shaded_points;
+    report.bad_colours += w.bad_colours;
+  }
+  return std::move(image_);
+}
+
+void FrameRenderer::split_all() {
+  SplitSettings s;
+  s.camera = &camera_;
+  PixelRect crop = camera_.crop();
+  auto mx = static_cast<float>(sampling_.xmargin()), my = static_cast<float>(sampling_.ymargin());
+  s.raster_min = {static_cast<float>(crop.x0) - mx, static_cast<float>(crop.y0) - my};
+  s.raster_max = {static_cast<float>(crop.x1) + mx, static_cast<float>(crop.y1) + my};
+  s.grid_size = options_.grid_size;
+  s.eye_splits = options_.eye_splits;
+  // Chunks of primitives in parallel, joined in order: task numbers never depend on the threads.
+  constexpr size_t kChunk = 64;
+  size_t count = scene_.primitives.size(), chunks = (count + kChunk - 1) / kChunk;
+  std::vector<std::vector<GridTask>> parts(chunks);
+  tbb::parallel_for(size_t{0}, chunks, [&](size_t c) {
+    for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
+      split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
+  });
+  for (auto& part : parts) {
+    tasks_.insert(tasks_.end(), part.begin(), part.end());
+    part = {};
+  }
+  slots_ = std::make_unique<GridSlot[]>(tasks_.size());
+}
+
+void FrameRenderer::make_buckets() {
+  PixelRect crop = camera_.crop();
+  int bw = options_.bucket_width, bh = options_.bucket_height;
+  int columns = (crop.width() + bw - 1) / bw, rows = (crop.height() + bh - 1) / bh;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i)
+      buckets_.push_back({{crop.x0 + i * bw, crop.y0 + j * bh, std::min(crop.x0 + (i + 1) * bw, crop.x1),
+                           std::min(crop.y0 + (j + 1) * bh, crop.y1)},
+                          {}});
+  auto index = [](float x, int margin, int origin, int size, int count, int side) {
+    float cell = std::floor((x + static_cast<float>(side * margin - origin)) / static_cast<float>(size));
+    return static_cast<int>(std::clamp(cell, 0.0f, static_cast<float>(count - 1)));
+  };
+  int mx = sampling_.xmargin(), my = sampling_.ymargin();
+  for (uint32_t t = 0; t < tasks_.size(); ++t) {
+    const GridTask& task = tasks_[t];
+    int i0 = index(task.raster_min.x, mx, crop.x0, bw, columns, -1);
+    int i1 = index(task.raster_max.x, mx, crop.x0, bw, columns, 1);
+    int j0 = index(task.raster_min.y, my, crop.y0, bh, rows, -1);
+    int j1 = index(task.raster_max.y, my, crop.y0, bh, rows, 1);
+    for (int j = j0; j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i) buckets_[static_cast<size_t>(j * columns + i)].tasks.push_back(t);
+    slots_[t].users = static_cast<uint32_t>((j1 - j0 + 1) * (i1 - i0 + 1));
+  }
+  tbb::parallel_for(size_t{0}, buckets_.size(), [&](size_t b) {
+    std::sort(buckets_[b].tasks.begin(), buckets_[b].tasks.end(), [&](uint32_t x, uint32_t y) {
+      return tasks_[x].zmin != tasks_[y].zmin ? tasks_[x].zmin < tasks_[y].zmin : x < y;
+    });
+  });
+}
+
+void FrameRenderer::render_bucket(Bucket& bucket, Worker& worker) {
+  SampleBuffer samples(bucket.rect, sampling_);
+  for (uint32_t t : bucket.tasks) {
+    if (tasks_[t].zmin <= samples.farthest())
+      if (const ShadedGrid* grid = shaded(t, worker)) samples.draw(*grid);
+    if (slots_[t].users.fetch_sub(1) == 1) slots_[t].grid.reset();
+  }
+  bucket.tasks = {};
+  samples.finish(image_);
+  expose(bucket.rect);
+  if (options_.imager) run_imager(bucket.rect, worker);
+}
+
+/// The task's grid, shaded now if no other bucket has done it. Another thread at it is waited for: it needs nothing
+/// from this one.
+const ShadedGrid* FrameRenderer::shaded(uint32_t task, Worker& worker) {
+  GridSlot& slot = slots_[task];
+  uint8_t expected = GridSlot::kNew;
+  if (slot.state.compare_exchange_strong(expected, GridSlot::kBusy)) {
+    slot.grid = shade(task, worker);
+    slot.state = GridSlot::kDone;
+    slot.state.notify_all();
+  } else {
+    while (expected != GridSlot::kDone) {
+      slot.state.wait(expected);
+      expected = slot.state;
+    }
+  }
+  return slot.grid.get();
+}
+
+/// Null when nothing of the grid can be seen.
+std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& worker) {
+  const GridTask& task = tasks_[index];
+  const Primitive& primitive = scene_.primitives[task.primitive];
+  DiceContext context{&camera_, &shading_.strings(), options_.shutter_open + options_.shutter_offset,
+                      options_.shutter_close - options_.shutter_open};
+  slvm::Grid& grid = worker.grid;
+  dice(primitive, task, index, context, grid);
+  if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
+  if (primitive.attributes().sides == 1 && faces_away(grid, camera_)) return nullptr;
+  worker.shader->shade(primitive, grid);
+  ++worker.shaded_grids;
+  worker.shaded_points += grid.points();
+  auto out = std::make_unique<ShadedGrid>(
+      make_shaded_grid(primitive, grid, camera_, settings_.aovs, *worker.shader));
+  worker.bad_colours += out->bad_colours;
+  return out;
+}
+
+/// c' = (gain c)^(1/gamma), negative lobes of the filter kept (RISpec 3.2, 4.2.2).
+void FrameRenderer::expose(const PixelRect& rect) {
+  if (options_.gain == 1 && options_.gamma == 1) return;
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      float* p = image_.pixel(x, y);
+      for (int c = 0; c < 3; ++c) {
+        float v = options_.gain * p[Image::kCi + c];
+        p[Image::kCi + c] = std::copysign(std::pow(std::abs(v), 1 / options_.gamma), v);
+      }
+    }
+}
+
+void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
+  slvm::Grid& grid = worker.grid;
+  grid.reset(rect.width(), rect.height());
+  grid.derivatives = true;
+  grid.flip_normals = false;
+  grid.object_to_current = {};
+  grid.id = hash_of(rect.x0, rect.y0, kImager);
+  grid.user = nullptr;
+  using slvm::Global;
+  float* planes[4] = {grid.varying(Global::kP), grid.varying(Global::kCi), grid.varying(Global::kOi),
+                      grid.varying(Global::kalpha)};
+  size_t pitch = grid.pitch(), k = 0;
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x, ++k) {
+      const float* p = image_.pixel(x, y);
+      planes[0][k] = static_cast<float>(x) + 0.5f;
+      planes[0][pitch + k] = static_cast<float>(y) + 0.5f;
+      planes[0][2 * pitch + k] = 0;
+      for (size_t c = 0; c < 3; ++c) {
+        planes[1][c * pitch + k] = p[Image::kCi + c];
+        planes[2][c * pitch + k] = p[Image::kOi + c];
+      }
+      planes[3][k] = p[Image::kAlpha];
+    }
+  worker.shader->image(*options_.imager, grid);
+  const slvm::Planes &Ci = grid.variable(Global::kCi), &Oi = grid.variable(Global::kOi),
+                     &alpha = grid.variable(Global::kalpha);
+  k = 0;
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x, ++k) {
+      float* p = image_.pixel(x, y);
+      for (size_t c = 0; c < 3; ++c) {
+        p[Image::kCi + c] = Ci.get(c, k);
+        p[Image::kOi + c] = Oi.get(c, k);
+      }
+      p[Image::kAlpha] = alpha.get(0, k);
+    }
+}
+
+void FrameRenderer::report_progress() {
+  std::lock_guard lock(progress_mutex_);
+  ++finished_buckets_;
+  if (settings_.progress)
+    settings_.progress(static_cast<double>(finished_buckets_) / static_cast<double>(buckets_.size()));
+}
+
+} // namespace
+
+Image render_frame(const Scene& scene, Shading& shading, const FrameSettings& settings, FrameReport& report) {
+  return FrameRenderer(scene, shading, settings).run(report);
+}
+
+} // namespace render

@@ -1,0 +1,31 @@
+// One frame: splits all primitives, hides bucket by bucket on all processors, shades each visible grid once, returns
+// the finished pixels. Read after prims/split.h, prims/dice.h, hider/sample_buffer.h.
+#pragma once
+
+#include "render/hider/image.h"
+#include "render/shading/grid_shader.h"
+#include "render/state/scene.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace render {
+
+struct FrameSettings {
+  int threads = 0; ///< 0: all processors
+  std::vector<AovChannel> aovs;
+  /// Called with the finished fraction, from any thread but never from two at once.
+  std::function<void(double)> progress;
+};
+
+/// What a user should be told about a frame.
+struct FrameReport {
+  size_t primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0;
+  size_t bad_colours = 0; ///< shading points whose colour was not a finite number
+};
+
+/// The same pixels, to the last bit, for any number of threads.
+Image render_frame(const Scene& scene, Shading& shading, const FrameSettings& settings, FrameReport& report);
+
+} // namespace render

@@ -1,0 +1,44 @@
+// Finished pixels of one frame, as floats.
+#pragma once
+
+#include "render/state/camera.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace render {
+
+/// A shader variable that a Display asks for.
+struct AovChannel {
+  std::string name;
+  int components = 3;
+  int first = 0; ///< its first float among the AOV floats of a pixel
+};
+
+/// Channels of a pixel in order: Ci (3), Oi (3), alpha, z, then the AOVs.
+struct Image {
+  static constexpr int kCi = 0, kOi = 3, kAlpha = 6, kZ = 7, kAov = 8;
+  /// z of a pixel nothing covers.
+  static constexpr float kEmptyDepth = 1e30f;
+
+  PixelRect rect; ///< the crop window, in pixels of the frame
+  int channels = kAov;
+  std::vector<float> data;
+
+  Image() = default;
+  Image(PixelRect r, int aov_floats)
+      : rect(r), channels(kAov + aov_floats),
+        data(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) * static_cast<size_t>(channels)) {}
+  /// Coordinates are those of the frame.
+  float* pixel(int x, int y) { return data.data() + offset(x, y); }
+  const float* pixel(int x, int y) const { return data.data() + offset(x, y); }
+
+private:
+  size_t offset(int x, int y) const {
+    return (static_cast<size_t>(y - rect.y0) * static_cast<size_t>(rect.width()) + static_cast<size_t>(x - rect.x0)) *
+           static_cast<size_t>(channels);
+  }
+};
+
+} // namespace render

@@ -1,0 +1,220 @@
+// Dicing: lattice positions, tangents, normals, texture coordinates, colours and primitive variables.
+#include "render/prims/dice.h"
+
+#include <array>
+
+namespace render {
+
+namespace {
+
+using slvm::Global;
+
+struct Triple {
+  float *x, *y, *z;
+  void set(size_t k, Vec3 p) const {
+    x[k] = p.x;
+    y[k] = p.y;
+    z[k] = p.z;
+  }
+  Vec3 get(size_t k) const { return {x[k], y[k], z[k]}; }
+};
+
+Triple triple(slvm::Grid& grid, Global g) {
+  float* x = grid.varying(g);
+  return {x, x + grid.pitch(), x + 2 * grid.pitch()};
+}
+
+Vec3 read(const slvm::Planes& p, size_t k) { return {p.get(0, k), p.get(1, k), p.get(2, k)}; }
+
+std::vector<float> parameters(float from, float to, int n) {
+  std::vector<float> out(static_cast<size_t>(n));
+  for (int i = 0; i < n; ++i)
+    out[static_cast<size_t>(i)] = from + (to - from) * (static_cast<float>(i) / static_cast<float>(n - 1));
+  out.back() = to; // exactly the neighbour's first value
+  return out;
+}
+
+class Dicer {
+public:
+  Dicer(const Primitive& primitive, const GridTask& task, const DiceContext& context, slvm::Grid& grid)
+      : primitive_(primitive), state_(*primitive.state), attributes_(primitive.attributes()), context_(context),
+        grid_(grid), u_(parameters(task.rect.u0, task.rect.u1, task.nu)),
+        v_(parameters(task.rect.v0, task.rect.v1, task.nv)) {}
+
+  void run() {
+    set_geometry();
+    set_parameters();
+    set_colours();
+    for (const PatchVar& var : primitive_.vars) set_primvar(var);
+  }
+
+private:
+  void set_geometry();
+  void set_parameters();
+  void set_colours();
+  void set_primvar(const PatchVar& var);
+  bool set_predefined(const PatchVar& var);
+  void to_camera(slvm::Type type, float* planes, size_t count);
+
+  const Primitive& primitive_;
+  const PrimitiveState& state_;
+  const Attributes& attributes_;
+  const DiceContext& context_;
+  slvm::Grid& grid_;
+  std::vector<float> u_, v_;
+};
+
+void Dicer::set_geometry() {
+  SurfaceLattice lattice;
+  primitive_.geometry->evaluate(u_, v_, lattice);
+  grid_.flip_normals = attributes_.flips_normals(state_.mirrored);
+  // N is the transformed object-space normal, which points to the object's outside whatever the handedness; what
+  // the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
+  float sign = grid_.flip_normals == state_.mirrored ? 1.0f : -1.0f;
+  Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN), Ng = triple(grid_, Global::kNg),
+         dPdu = triple(grid_, Global::kdPdu), dPdv = triple(grid_, Global::kdPdv), I = triple(grid_, Global::kI);
+  const Matrix4& m = state_.object_to_camera;
+  const Matrix4& inverse = state_.camera_to_object;
+  for (size_t k = 0; k < lattice.P.size(); ++k) {
+    Vec3 p = transform_point(m, lattice.P[k]);
+    P.set(k, p);
+    I.set(k, context_.camera->incident(p));
+    dPdu.set(k, transform_vector(m, lattice.dPdu[k]));
+    dPdv.set(k, transform_vector(m, lattice.dPdv[k]));
+    // Normals go by the inverse transpose.
+    Vec3 n = lattice.N[k];
+    Vec3 nc;
+    for (int i = 0; i < 3; ++i) nc[i] = sign * (inverse(i, 0) * n.x + inverse(i, 1) * n.y + inverse(i, 2) * n.z);
+    N.set(k, nc);
+    Ng.set(k, nc);
+  }
+}
+
+void Dicer::set_parameters() {
+  float* u = grid_.varying(Global::ku);
+  float* v = grid_.varying(Global::kv);
+  float* s = grid_.varying(Global::ks);
+  float* t = grid_.varying(Global::kt);
+  const auto& tc = attributes_.texture_coordinates;
+  size_t k = 0;
+  for (float vj : v_)
+    for (float ui : u_) {
+      u[k] = ui;
+      v[k] = vj;
+      s[k] = (tc[0] * (1 - ui) + tc[2] * ui) * (1 - vj) + (tc[4] * (1 - ui) + tc[6] * ui) * vj;
+      t[k] = (tc[1] * (1 - ui) + tc[3] * ui) * (1 - vj) + (tc[5] * (1 - ui) + tc[7] * ui) * vj;
+      ++k;
+    }
+  float du = (u_.back() - u_.front()) / static_cast<float>(u_.size() - 1);
+  float dv = (v_.back() - v_.front()) / static_cast<float>(v_.size() - 1);
+  auto set = [&](Global g, std::initializer_list<float> value) { grid_.set_uniform(g, {value.begin(), value.size()}); };
+  set(Global::kdu, {du});
+  set(Global::kdv, {dv});
+  set(Global::kE, {0, 0, 0});
+  set(Global::kncomps, {3});
+  set(Global::ktime, {context_.time});
+  set(Global::kdtime, {context_.dtime});
+  set(Global::kdPdtime, {0, 0, 0});
+}
+
+void Dicer::set_colours() {
+  const Color &c = attributes_.color, &o = attributes_.opacity;
+  grid_.set_uniform(Global::kCs, std::array{c.x, c.y, c.z});
+  grid_.set_uniform(Global::kOs, std::array{o.x, o.y, o.z});
+}
+
+/// Object-space values to camera space, in place.
+void Dicer::to_camera(slvm::Type type, float* planes, size_t count) {
+  if (!slvm::is_geometric(type)) return;
+  size_t pitch = grid_.pitch();
+  for (size_t e = 0; e < count; ++e, planes += 3 * pitch)
+    for (size_t k = 0; k < grid_.points(); ++k) {
+      std::array<float, 3> a{planes[k], planes[pitch + k], planes[2 * pitch + k]}, b;
+      if (type == slvm::Type::kPoint) b = slvm::transform_point(state_.object_to_camera, a);
+      else if (type == slvm::Type::kVector) b = slvm::transform_vector(state_.object_to_camera, a);
+      else b = slvm::transform_normal(state_.object_to_camera, a);
+      for (size_t c = 0; c < 3; ++c) planes[c * pitch + k] = b[c];
+    }
+}
+
+/// Variables that replace a predefined one instead of being added.
+bool Dicer::set_predefined(const PatchVar& var) {
+  if (var.name == "st" && var.elements == 2 && var.type == slvm::Type::kFloat) {
+    PatchVar one = var;
+    one.elements = 0;
+    for (size_t c = 0; c < 2; ++c) {
+      one.values.clear();
+      for (size_t i = c; i < var.values.size(); i += 2) one.values.push_back(var.values[i]);
+      interpolate(one, u_, v_, grid_.varying(c == 0 ? Global::ks : Global::kt), grid_.pitch());
+    }
+    return true;
+  }
+  constexpr std::pair<std::string_view, Global> kNames[] = {
+      {"Cs", Global::kCs}, {"Os", Global::kOs}, {"s", Global::ks}, {"t", Global::kt}, {"N", Global::kN}};
+  for (auto [name, global] : kNames)
+    if (var.name == name && var.type == slvm::global_info(global).type && !var.elements) {
+      float* planes = grid_.varying(global);
+      interpolate(var, u_, v_, planes, grid_.pitch());
+      to_camera(var.type, planes, 1);
+      return true;
+    }
+  return false;
+}
+
+void Dicer::set_primvar(const PatchVar& var) {
+  if (set_predefined(var)) return;
+  // Constant values cost nothing as uniforms; geometric ones and matrices need the transformation below.
+  bool plain = var.type == slvm::Type::kFloat || var.type == slvm::Type::kColor || var.type == slvm::Type::kString ||
+               var.type == slvm::Type::kMatrix;
+  if (var.interpolation == Interpolation::kConstant && plain) {
+    slvm::Value value{var.type, var.elements, var.values, var.strings};
+    grid_.add_uniform_primvar(var.name, value, *context_.strings);
+    return;
+  }
+  if (var.type == slvm::Type::kString) return; // strings do not interpolate; the interpreter has said so
+  float* planes = grid_.add_varying_primvar(var.name, var.type, var.elements);
+  interpolate(var, u_, v_, planes, grid_.pitch());
+  to_camera(var.type, planes, var.elements ? var.elements : 1);
+}
+
+} // namespace
+
+void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context,
+          slvm::Grid& grid) {
+  grid.reset(task.nu, task.nv);
+  grid.derivatives = true;
+  grid.object_to_current = primitive.state->object_to_camera;
+  grid.id = id;
+  grid.user = &primitive;
+  Dicer(primitive, task, context, grid).run();
+}
+
+void renew_geometry(const Camera& camera, slvm::Grid& grid) {
+  Triple P = triple(grid, Global::kP), Ng = triple(grid, Global::kNg), dPdu = triple(grid, Global::kdPdu),
+         dPdv = triple(grid, Global::kdPdv), I = triple(grid, Global::kI);
+  float du = grid.variable(Global::kdu).get(0, 0), dv = grid.variable(Global::kdv).get(0, 0);
+  auto nu = static_cast<size_t>(grid.nu()), nv = static_cast<size_t>(grid.nv());
+  float sign = grid.flip_normals ? -1.0f : 1.0f;
+  for (size_t j = 0; j < nv; ++j)
+    for (size_t i = 0; i < nu; ++i) {
+      size_t k = j * nu + i;
+      // Central differences inside, one-sided ones at the edges.
+      size_t i0 = i > 0 ? i - 1 : i, i1 = i + 1 < nu ? i + 1 : i, j0 = j > 0 ? j - 1 : j, j1 = j + 1 < nv ? j + 1 : j;
+      Vec3 along_u = (P.get(j * nu + i1) - P.get(j * nu + i0)) / (static_cast<float>(i1 - i0) * du);
+      Vec3 along_v = (P.get(j1 * nu + i) - P.get(j0 * nu + i)) / (static_cast<float>(j1 - j0) * dv);
+      dPdu.set(k, along_u);
+      dPdv.set(k, along_v);
+      Vec3 n = glm::cross(along_u, along_v) * sign;
+      if (glm::dot(n, n) > 0) Ng.set(k, n); // else, at a pole, the undisplaced one is as good
+      I.set(k, camera.incident(P.get(k)));
+    }
+}
+
+bool faces_away(const slvm::Grid& grid, const Camera& camera) {
+  const slvm::Planes &P = grid.variable(Global::kP), &Ng = grid.variable(Global::kNg);
+  for (size_t k = 0; k < grid.points(); ++k)
+    if (glm::dot(read(Ng, k), camera.incident(read(P, k))) <= 0) return false;
+  return true;
+}
+
+} // namespace render

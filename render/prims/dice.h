@@ -1,0 +1,31 @@
+// The dice half of REYES: a piece of a primitive becomes a shading grid in camera space, with all the variables a
+// shader can read.
+#pragma once
+
+#include "render/prims/split.h"
+#include "slvm/grid.h"
+
+namespace slvm {
+class StringPool;
+}
+
+namespace render {
+
+/// What grids hold besides geometry.
+struct DiceContext {
+  const Camera* camera = nullptr;
+  slvm::StringPool* strings = nullptr; ///< of the virtual machine, for string primvars
+  float time = 0, dtime = 0;
+};
+
+/// Fills `grid` (its old content is dropped) with the lattice of `task`. `id` becomes part of the seed of random().
+void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context, slvm::Grid& grid);
+
+/// After P was moved: I, Ng, dPdu and dPdv anew, the latter from differences of P. N stays what the displacement
+/// shader left.
+void renew_geometry(const Camera& camera, slvm::Grid& grid);
+
+/// Whether every point faces away from the eye, by Ng.
+bool faces_away(const slvm::Grid& grid, const Camera& camera);
+
+} // namespace render

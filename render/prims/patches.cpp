@@ -1,0 +1,153 @@
+// Bilinear and bicubic patches.
+#include "render/prims/patches.h"
+
+#include <cmath>
+
+namespace render {
+
+namespace {
+
+/// Below this fraction of the product of the tangents' typical size, a cross product is noise.
+constexpr float kCollapsed = 1e-6f;
+
+class BilinearPatch final : public Geometry {
+public:
+  explicit BilinearPatch(const std::array<Vec3, 4>& p) : p_(p) {}
+
+  Box bound(const UvRect& r) const override {
+    Box box;
+    for (float v : {r.v0, r.v1})
+      for (float u : {r.u0, r.u1}) box.add(point(u, v));
+    return box;
+  }
+
+  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+    out.resize(u.size() * v.size());
+    size_t k = 0;
+    for (float vj : v)
+      for (float ui : u) {
+        out.P[k] = point(ui, vj);
+        out.dPdu[k] = du(vj);
+        out.dPdv[k] = dv(ui);
+        out.N[k] = normal(ui, vj);
+        ++k;
+      }
+  }
+  bool ruled() const override { return true; }
+
+private:
+  Vec3 point(float u, float v) const {
+    return (p_[0] * (1 - u) + p_[1] * u) * (1 - v) + (p_[2] * (1 - u) + p_[3] * u) * v;
+  }
+  Vec3 du(float v) const { return (p_[1] - p_[0]) * (1 - v) + (p_[3] - p_[2]) * v; }
+  Vec3 dv(float u) const { return (p_[2] - p_[0]) * (1 - u) + (p_[3] - p_[1]) * u; }
+  Vec3 normal(float u, float v) const {
+    Vec3 n = glm::cross(du(v), dv(u));
+    float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]);
+    // At a collapsed edge: the normal a little inside.
+    if (glm::length(n) < kCollapsed * scale) n = glm::cross(du(v + (0.5f - v) * 0.01f), dv(u + (0.5f - u) * 0.01f));
+    return n;
+  }
+
+  std::array<Vec3, 4> p_;
+};
+
+std::array<float, 4> bernstein_slope(float t) {
+  float s = 1 - t;
+  return {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t};
+}
+
+/// De Casteljau: control values of the part [t0, t1] of a cubic.
+void restrict_cubic(Vec3* p, size_t stride, float t0, float t1) {
+  // Blossoms: f(t0,t0,t0), f(t0,t0,t1), f(t0,t1,t1), f(t1,t1,t1).
+  auto blossom = [&](float a, float b, float c) {
+    Vec3 q0 = glm::mix(p[0], p[stride], a), q1 = glm::mix(p[stride], p[2 * stride], a),
+         q2 = glm::mix(p[2 * stride], p[3 * stride], a);
+    return glm::mix(glm::mix(q0, q1, b), glm::mix(q1, q2, b), c);
+  };
+  Vec3 r[4] = {blossom(t0, t0, t0), blossom(t0, t0, t1), blossom(t0, t1, t1), blossom(t1, t1, t1)};
+  for (size_t i = 0; i < 4; ++i) p[i * stride] = r[i];
+}
+
+class BicubicPatch final : public Geometry {
+public:
+  explicit BicubicPatch(const std::array<Vec3, 16>& p) : p_(p) {}
+
+  Box bound(const UvRect& r) const override {
+    std::array<Vec3, 16> q = p_;
+    for (size_t row = 0; row < 4; ++row) restrict_cubic(&q[4 * row], 1, r.u0, r.u1);
+    for (size_t column = 0; column < 4; ++column) restrict_cubic(&q[column], 4, r.v0, r.v1);
+    Box box;
+    for (Vec3 p : q) box.add(p);
+    return box;
+  }
+
+  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+    out.resize(u.size() * v.size());
+    size_t k = 0;
+    for (float vj : v)
+      for (float ui : u) {
+        Tangents t = tangents(ui, vj);
+        out.P[k] = sum(bernstein(ui), bernstein(vj));
+        out.dPdu[k] = t.du;
+        out.dPdv[k] = t.dv;
+        out.N[k] = glm::cross(t.du, t.dv);
+        if (glm::length(out.N[k]) < kCollapsed * scale()) {
+          t = tangents(ui + (0.5f - ui) * 0.01f, vj + (0.5f - vj) * 0.01f);
+          out.N[k] = glm::cross(t.du, t.dv);
+        }
+        ++k;
+      }
+  }
+
+private:
+  struct Tangents {
+    Vec3 du, dv;
+  };
+  Vec3 sum(const std::array<float, 4>& a, const std::array<float, 4>& b) const {
+    Vec3 s(0.0f);
+    for (size_t j = 0; j < 4; ++j)
+      for (size_t i = 0; i < 4; ++i) s += p_[4 * j + i] * (a[i] * b[j]);
+    return s;
+  }
+  Tangents tangents(float u, float v) const {
+    return {sum(bernstein_slope(u), bernstein(v)), sum(bernstein(u), bernstein_slope(v))};
+  }
+  float scale() const {
+    return glm::dot(p_[15] - p_[0], p_[15] - p_[0]) + glm::dot(p_[12] - p_[3], p_[12] - p_[3]);
+  }
+
+  std::array<Vec3, 16> p_;
+};
+
+} // namespace
+
+std::array<float, 4> bernstein(float t) {
+  float s = 1 - t;
+  return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+}
+
+std::shared_ptr<const Geometry> make_bilinear(const std::array<Vec3, 4>& points) {
+  return std::make_shared<BilinearPatch>(points);
+}
+
+std::shared_ptr<const Geometry> make_bicubic(const std::array<Vec3, 16>& points) {
+  return std::make_shared<BicubicPatch>(points);
+}
+
+void convert_to_bezier(const CubicBasis& u, const CubicBasis& v, float* values, size_t stride) {
+  Matrix4 from_bezier = inverse_or_identity(bezier_basis().matrix);
+  // [t^3 t^2 t 1] M p = [t^3 t^2 t 1] B b, so b = B^-1 M p: along rows for u, along columns for v.
+  auto convert = [&](const Matrix4& basis, float* at, size_t step) {
+    float in[4], out[4] = {};
+    Matrix4 m = from_bezier * basis;
+    for (int i = 0; i < 4; ++i) in[i] = at[static_cast<size_t>(i) * step];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) out[i] += m(i, j) * in[j];
+    for (int i = 0; i < 4; ++i) at[static_cast<size_t>(i) * step] = out[i];
+  };
+  for (size_t k = 0; k < 4; ++k) convert(u.matrix, values + 4 * k * stride, stride);
+  for (size_t k = 0; k < 4; ++k) convert(v.matrix, values + k * stride, 4 * stride);
+}
+
+} // namespace render

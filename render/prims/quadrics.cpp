@@ -1,0 +1,199 @@
+// Quadrics. A profile knows its point and derivative at v and a bound for a range of v; Quadric turns it.
+#include "render/prims/quadrics.h"
+
+#include <cmath>
+
+namespace render {
+
+namespace {
+
+/// Range of cos over [a, b] (a <= b, radians).
+void cos_range(float a, float b, float& low, float& high) {
+  float ca = std::cos(a), cb = std::cos(b);
+  low = std::min(ca, cb);
+  high = std::max(ca, cb);
+  float turn = 2 * kPi;
+  if (std::floor(b / turn) >= std::ceil(a / turn)) high = 1;                            // passes a multiple of 2 pi
+  if (std::floor((b - kPi) / turn) >= std::ceil((a - kPi) / turn)) low = -1;            // passes an odd multiple of pi
+}
+
+void sin_range(float a, float b, float& low, float& high) { cos_range(a - kPi / 2, b - kPi / 2, low, high); }
+
+/// A range of the profile: every point of it lies on a segment between a turned `a` and a turned `b`, at zmin to zmax.
+struct ProfileRange {
+  Vec2 a, b;
+  float zmin, zmax;
+};
+
+struct ProfilePoint {
+  Vec3 q, dq; ///< dq: derivative with respect to v
+};
+
+struct SphereProfile {
+  float radius, phimin, phimax;
+  ProfilePoint at(float v) const {
+    float d = phimax - phimin, phi = phimin + v * d;
+    float c = std::cos(phi), s = std::sin(phi);
+    return {{radius * c, 0, radius * s}, {-radius * s * d, 0, radius * c * d}};
+  }
+  ProfileRange range(float v0, float v1) const {
+    float p0 = phimin + v0 * (phimax - phimin), p1 = phimin + v1 * (phimax - phimin);
+    if (p0 > p1) std::swap(p0, p1);
+    float clow, chigh, slow, shigh;
+    cos_range(p0, p1, clow, chigh);
+    sin_range(p0, p1, slow, shigh);
+    auto [z0, z1] = std::minmax({radius * slow, radius * shigh});
+    return {{radius * clow, 0}, {radius * chigh, 0}, z0, z1};
+  }
+};
+
+struct TorusProfile {
+  float major, minor, phimin, phimax;
+  ProfilePoint at(float v) const {
+    ProfilePoint p = SphereProfile{minor, phimin, phimax}.at(v);
+    p.q.x += major;
+    return p;
+  }
+  ProfileRange range(float v0, float v1) const {
+    ProfileRange r = SphereProfile{minor, phimin, phimax}.range(v0, v1);
+    r.a.x += major;
+    r.b.x += major;
+    return r;
+  }
+};
+
+/// Cylinder, cone, disk and hyperboloid: a straight line.
+struct LineProfile {
+  Vec3 from, to;
+  ProfilePoint at(float v) const { return {from * (1 - v) + to * v, to - from}; }
+  ProfileRange range(float v0, float v1) const {
+    Vec3 a = at(v0).q, b = at(v1).q;
+    return {Vec2(a), Vec2(b), std::min(a.z, b.z), std::max(a.z, b.z)};
+  }
+};
+
+struct ParaboloidProfile {
+  float rmax, zmin, zmax;
+  ProfilePoint at(float v) const {
+    // At the apex dr/dv is infinite; a nearby slope keeps direction and finiteness.
+    float z = zmin + v * (zmax - zmin), ratio = std::max(z / zmax, 0.0f);
+    float slope = rmax * 0.5f / std::sqrt(std::max(ratio, 1e-6f)) * (zmax - zmin) / zmax;
+    return {{rmax * std::sqrt(ratio), 0, z}, {slope, 0, zmax - zmin}};
+  }
+  ProfileRange range(float v0, float v1) const {
+    Vec3 a = at(v0).q, b = at(v1).q;
+    return {Vec2(a), Vec2(b), std::min(a.z, b.z), std::max(a.z, b.z)};
+  }
+};
+
+template <class Profile>
+class Quadric final : public Geometry {
+public:
+  Quadric(Profile profile, float thetamax) : profile_(profile), thetamax_(radians(thetamax)) {}
+
+  Box bound(const UvRect& rect) const override {
+    ProfileRange r = profile_.range(rect.v0, rect.v1);
+    Box box;
+    for (Vec2 p : {r.a, r.b}) {
+      float radius = glm::length(p), start = std::atan2(p.y, p.x);
+      float t0 = start + rect.u0 * thetamax_, t1 = start + rect.u1 * thetamax_;
+      if (t0 > t1) std::swap(t0, t1);
+      float xlow, xhigh, ylow, yhigh;
+      cos_range(t0, t1, xlow, xhigh);
+      sin_range(t0, t1, ylow, yhigh);
+      box.add({radius * xlow, radius * ylow, r.zmin});
+      box.add({radius * xhigh, radius * yhigh, r.zmax});
+    }
+    Vec3 size = box.max - box.min; // room for the rounding of sines
+    box.grow(1e-5f * std::max({size.x, size.y, size.z, 1e-30f}));
+    return box;
+  }
+
+  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+    out.resize(u.size() * v.size());
+    std::vector<Vec2> turns(u.size()); // cosine and sine
+    for (size_t i = 0; i < u.size(); ++i) turns[i] = {std::cos(u[i] * thetamax_), std::sin(u[i] * thetamax_)};
+    size_t k = 0;
+    for (float vj : v) {
+      ProfilePoint p = profile_.at(vj);
+      Vec3 normal = profile_normal(p, vj);
+      for (Vec2 t : turns) {
+        auto turn = [&](Vec3 w) { return Vec3(w.x * t.x - w.y * t.y, w.x * t.y + w.y * t.x, w.z); };
+        out.P[k] = turn(p.q);
+        out.dPdu[k] = turn({-p.q.y * thetamax_, p.q.x * thetamax_, 0});
+        out.dPdv[k] = turn(p.dq);
+        out.N[k] = turn(normal);
+        ++k;
+      }
+    }
+  }
+
+private:
+  /// dPdu x dPdv at theta 0, with the direction of dPdu that a point a little off the axis has.
+  Vec3 profile_normal(const ProfilePoint& p, float v) const {
+    Vec2 q(p.q);
+    if (glm::length(q) < 1e-4f * glm::length(p.dq)) q = Vec2(profile_.at(v < 0.5f ? v + 1e-3f : v - 1e-3f).q);
+    Vec3 tangent(-q.y, q.x, 0);
+    Vec3 n = glm::cross(tangent, p.dq) * (thetamax_ < 0 ? -1.0f : 1.0f);
+    float length = glm::length(n);
+    return length > 0 ? n / length : Vec3(0, 0, 1);
+  }
+
+  Profile profile_;
+  float thetamax_;
+};
+
+template <class Profile>
+GeometryResult finish(const Profile& profile, float thetamax) {
+  if (thetamax == 0) return slvm::Error{"thetamax is zero: there is no surface"};
+  return std::shared_ptr<const Geometry>(std::make_shared<Quadric<Profile>>(profile, thetamax));
+}
+
+} // namespace
+
+GeometryResult make_sphere(float radius, float zmin, float zmax, float thetamax) {
+  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
+  float size = std::abs(radius);
+  float low = std::asin(std::clamp(zmin / size, -1.0f, 1.0f)), high = std::asin(std::clamp(zmax / size, -1.0f, 1.0f));
+  if (low == high) return slvm::Error{"zmin equals zmax: there is no surface"};
+  // A negative radius mirrors the profile: the same sphere, inside out.
+  if (radius < 0) return finish(SphereProfile{radius, -low, -high}, thetamax);
+  return finish(SphereProfile{radius, low, high}, thetamax);
+}
+
+GeometryResult make_cone(float height, float radius, float thetamax) {
+  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
+  return finish(LineProfile{{radius, 0, 0}, {0, 0, height}}, thetamax);
+}
+
+GeometryResult make_cylinder(float radius, float zmin, float zmax, float thetamax) {
+  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
+  if (zmin == zmax) return slvm::Error{"zmin equals zmax: there is no surface"};
+  return finish(LineProfile{{radius, 0, zmin}, {radius, 0, zmax}}, thetamax);
+}
+
+GeometryResult make_hyperboloid(Vec3 point1, Vec3 point2, float thetamax) {
+  if (point1 == point2) return slvm::Error{"its two points are the same: there is no surface"};
+  return finish(LineProfile{point1, point2}, thetamax);
+}
+
+GeometryResult make_paraboloid(float rmax, float zmin, float zmax, float thetamax) {
+  if (rmax == 0) return slvm::Error{"rmax is zero: there is no surface"};
+  if (zmax == 0) return slvm::Error{"zmax is zero; a paraboloid has its apex there"};
+  if (zmin == zmax) return slvm::Error{"zmin equals zmax: there is no surface"};
+  if (zmin / zmax < 0) return slvm::Error{"zmin and zmax lie on two sides of the apex"};
+  return finish(ParaboloidProfile{rmax, zmin, zmax}, thetamax);
+}
+
+GeometryResult make_disk(float height, float radius, float thetamax) {
+  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
+  return finish(LineProfile{{radius, 0, height}, {0, 0, height}}, thetamax);
+}
+
+GeometryResult make_torus(float major, float minor, float phimin, float phimax, float thetamax) {
+  if (minor == 0) return slvm::Error{"the minor radius is zero: there is no surface"};
+  if (phimin == phimax) return slvm::Error{"phimin equals phimax: there is no surface"};
+  return finish(TorusProfile{major, minor, radians(phimin), radians(phimax)}, thetamax);
+}
+
+} // namespace render

@@ -1,0 +1,170 @@
+// Bound, cull, split.
+#include "render/prims/split.h"
+
+#include <cmath>
+
+namespace render {
+
+namespace {
+
+/// Segments of the lattice that measures how large a piece is in the image.
+constexpr int kProbes = 4;
+/// A piece this small in u or v is never split further: its sides would not be distinct floats.
+constexpr float kSmallest = 1e-6f;
+
+struct Piece {
+  UvRect rect;
+  int eye_splits = 0;
+};
+
+struct Extent {
+  float u = 0, v = 0; ///< longest row and column of the probing lattice
+};
+
+class Splitter {
+public:
+  Splitter(const Primitive& primitive, uint32_t index, const SplitSettings& settings, std::vector<GridTask>& out)
+      : primitive_(primitive), index_(index), settings_(settings), camera_(*settings.camera), out_(out),
+        step_(std::sqrt(primitive.attributes().shading_rate)) {}
+
+  void run() {
+    stack_.push_back({});
+    while (!stack_.empty()) {
+      Piece piece = stack_.back();
+      stack_.pop_back();
+      visit(piece);
+    }
+  }
+
+private:
+  void visit(const Piece& piece);
+  bool outside_frustum(const Box& box) const;
+  void raster_bound(const Box& box, GridTask& task) const;
+  Extent measure(const UvRect& rect, bool in_raster) const;
+  void split(const Piece& piece, bool along_u, int eye_splits);
+
+  const Primitive& primitive_;
+  uint32_t index_;
+  const SplitSettings& settings_;
+  const Camera& camera_;
+  std::vector<GridTask>& out_;
+  float step_; ///< side of a micropolygon in pixels
+  std::vector<Piece> stack_;
+};
+
+void Splitter::visit(const Piece& piece) {
+  Box box = primitive_.camera_bound(piece.rect);
+  // A box that is not a number is of no use to anyone; the negated test catches it.
+  if (!(box.max.z >= camera_.near_plane()) || !(box.min.z <= camera_.far_plane()) || outside_frustum(box)) return;
+
+  // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the picture.
+  bool crosses_eye = camera_.perspective() && box.min.z < camera_.near_plane();
+  if (crosses_eye && piece.eye_splits < settings_.eye_splits) {
+    Extent e = measure(piece.rect, false);
+    split(piece, e.u >= e.v, piece.eye_splits + 1);
+    return;
+  }
+  GridTask task;
+  task.primitive = index_;
+  task.rect = piece.rect;
+  task.zmin = std::max(box.min.z, camera_.near_plane());
+  task.raster_min = settings_.raster_min;
+  task.raster_max = settings_.raster_max;
+  if (!crosses_eye) {
+    raster_bound(box, task);
+    if (!(task.raster_max.x >= settings_.raster_min.x) || !(task.raster_min.x <= settings_.raster_max.x) ||
+        !(task.raster_max.y >= settings_.raster_min.y) || !(task.raster_min.y <= settings_.raster_max.y))
+      return;
+  }
+  Extent e = measure(piece.rect, true);
+  float limit = static_cast<float>(settings_.grid_size);
+  float nu = std::clamp(std::ceil(e.u / step_), 1.0f, 1e6f) + 1, nv = std::clamp(std::ceil(e.v / step_), 1.0f, 1e6f) + 1;
+  bool too_small = piece.rect.u1 - piece.rect.u0 < kSmallest || piece.rect.v1 - piece.rect.v0 < kSmallest;
+  if (nu * nv > limit && !crosses_eye && !too_small) {
+    split(piece, nu >= nv, piece.eye_splits);
+    return;
+  }
+  if (nu * nv > limit) nu = nv = std::max(2.0f, std::floor(std::sqrt(limit)));
+  task.nu = static_cast<int>(nu);
+  task.nv = static_cast<int>(nv);
+  out_.push_back(task);
+}
+
+void Splitter::split(const Piece& piece, bool along_u, int eye_splits) {
+  Piece a{piece.rect, eye_splits}, b{piece.rect, eye_splits};
+  if (along_u) a.rect.u1 = b.rect.u0 = piece.rect.umid();
+  else a.rect.v1 = b.rect.v0 = piece.rect.vmid();
+  stack_.push_back(b);
+  stack_.push_back(a);
+}
+
+/// True when all corners are on the outer side of one side plane of the viewing pyramid. Works in homogeneous
+/// coordinates, hence also for boxes that reach behind the eye.
+bool Splitter::outside_frustum(const Box& box) const {
+  if (!camera_.perspective()) return false;
+  const auto& m = camera_.to_raster().m;
+  bool left = true, right = true, top = true, bottom = true;
+  for (int i = 0; i < 8; ++i) {
+    Vec3 p = box.corner(i);
+    float x = p.x * m[0] + p.y * m[4] + p.z * m[8] + m[12];
+    float y = p.x * m[1] + p.y * m[5] + p.z * m[9] + m[13];
+    float w = p.x * m[3] + p.y * m[7] + p.z * m[11] + m[15];
+    left = left && x < settings_.raster_min.x * w;
+    right = right && x > settings_.raster_max.x * w;
+    top = top && y < settings_.raster_min.y * w;
+    bottom = bottom && y > settings_.raster_max.y * w;
+  }
+  return left || right || top || bottom;
+}
+
+void Splitter::raster_bound(const Box& box, GridTask& task) const {
+  task.raster_min = Vec2(kInfinity);
+  task.raster_max = Vec2(-kInfinity);
+  for (int i = 0; i < 8; ++i) {
+    Vec2 r = camera_.project(box.corner(i));
+    task.raster_min = glm::min(task.raster_min, r);
+    task.raster_max = glm::max(task.raster_max, r);
+  }
+}
+
+/// Longest row and column of a coarse lattice, in pixels or (for pieces behind the eye) in camera space.
+Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
+  int segments = primitive_.geometry->ruled() ? 1 : kProbes;
+  int n = segments + 1;
+  float u[kProbes + 1], v[kProbes + 1];
+  for (int i = 0; i < n; ++i) {
+    float t = static_cast<float>(i) / static_cast<float>(segments);
+    u[i] = rect.u0 + t * (rect.u1 - rect.u0);
+    v[i] = rect.v0 + t * (rect.v1 - rect.v0);
+  }
+  SurfaceLattice lattice;
+  auto count = static_cast<size_t>(n);
+  primitive_.geometry->evaluate({u, count}, {v, count}, lattice);
+  Vec3 p[(kProbes + 1) * (kProbes + 1)];
+  for (size_t k = 0; k < lattice.P.size(); ++k) {
+    p[k] = transform_point(primitive_.state->object_to_camera, lattice.P[k]);
+    if (!in_raster) continue;
+    if (camera_.perspective()) p[k].z = std::max(p[k].z, camera_.near_plane());
+    p[k] = Vec3(camera_.project(p[k]), 0);
+  }
+  Extent e;
+  for (int j = 0; j < n; ++j) {
+    float row = 0, column = 0;
+    for (int i = 0; i < segments; ++i) {
+      row += glm::distance(p[j * n + i], p[j * n + i + 1]);
+      column += glm::distance(p[i * n + j], p[(i + 1) * n + j]);
+    }
+    e.u = std::max(e.u, row);
+    e.v = std::max(e.v, column);
+  }
+  return e;
+}
+
+} // namespace
+
+void split_primitive(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
+                     std::vector<GridTask>& out) {
+  Splitter(primitive, index, settings, out).run();
+}
+
+} // namespace render

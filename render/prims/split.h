@@ -1,0 +1,33 @@
+// The bound-and-split half of REYES: cuts a primitive into pieces small enough to dice, and drops what the camera
+// cannot see. A piece is only a rectangle of the primitive's parameter square, so a frame's list of pieces is small.
+#pragma once
+
+#include "render/prims/primitive.h"
+#include "render/state/camera.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace render {
+
+/// A piece that is ready to be diced.
+struct GridTask {
+  uint32_t primitive = 0; ///< index in the scene
+  UvRect rect;
+  int nu = 2, nv = 2; ///< points of its lattice
+  Vec2 raster_min, raster_max;
+  float zmin = 0; ///< nearest camera z of its bound
+};
+
+struct SplitSettings {
+  const Camera* camera = nullptr;
+  Vec2 raster_min, raster_max; ///< the area samples can lie in
+  int grid_size = 256;
+  int eye_splits = 10;
+};
+
+/// Appends the visible pieces of scene primitive `index`, in an order that depends on nothing but the arguments.
+void split_primitive(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
+                     std::vector<GridTask>& out);
+
+} // namespace render

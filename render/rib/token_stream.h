@@ -1,0 +1,40 @@
+// The words of a RIB stream, whatever its encoding. The parser sees nothing else of a file; the ASCII lexer
+// (ascii_lexer.h) is one source of tokens.
+#pragma once
+
+#include "slvm/support/source.h"
+
+#include <cstdint>
+#include <string>
+
+namespace render {
+
+enum class TokenKind : uint8_t {
+  kEnd,
+  kWord, ///< the name of a request
+  kInteger,
+  kReal,
+  kString,
+  kOpen,  ///< [
+  kClose, ///< ]
+  kDash,  ///< a "-" that is not the sign of a number
+  kError, ///< text holds the message; the stream can be read on
+};
+
+struct Token {
+  TokenKind kind = TokenKind::kEnd;
+  double number = 0;
+  std::string text; ///< of words, strings (escapes resolved) and errors
+  slvm::SourceRange where;
+
+  bool is_number() const { return kind == TokenKind::kInteger || kind == TokenKind::kReal; }
+};
+
+class TokenStream {
+public:
+  virtual ~TokenStream() = default;
+  /// Replaces `token` by the next one; kEnd again and again at the end.
+  virtual void next(Token& token) = 0;
+};
+
+} // namespace render

@@ -1,0 +1,43 @@
+// From camera space to the image: screen, NDC and raster. RISpec 3.2, 4.1.
+#pragma once
+
+#include "render/state/options.h"
+
+namespace render {
+
+struct PixelRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0; ///< x1, y1 one past the last pixel
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool empty() const { return x1 <= x0 || y1 <= y0; }
+};
+
+class Camera {
+public:
+  explicit Camera(const Options&);
+
+  const Matrix4& to_screen() const { return to_screen_; }
+  const Matrix4& to_ndc() const { return to_ndc_; }
+  const Matrix4& to_raster() const { return to_raster_; }
+  /// Pixels of a point in front of the eye (any z when the projection is orthographic).
+  Vec2 project(Vec3 p) const {
+    const auto& m = to_raster_.m;
+    float w = p.x * m[3] + p.y * m[7] + p.z * m[11] + m[15];
+    return {(p.x * m[0] + p.y * m[4] + p.z * m[8] + m[12]) / w, (p.x * m[1] + p.y * m[5] + p.z * m[9] + m[13]) / w};
+  }
+  bool perspective() const { return perspective_; }
+  /// The eye: the origin (also for orthographic cameras, where I is (0,0,z)).
+  Vec3 incident(Vec3 p) const { return perspective_ ? p : Vec3(0, 0, p.z); }
+  float near_plane() const { return near_; }
+  float far_plane() const { return far_; }
+  /// The pixels to render: crop window within the frame.
+  PixelRect crop() const { return crop_; }
+
+private:
+  Matrix4 to_screen_, to_ndc_, to_raster_;
+  bool perspective_;
+  float near_, far_;
+  PixelRect crop_;
+};
+
+} // namespace render

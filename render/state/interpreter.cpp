@@ -1,0 +1,200 @@
+// The dispatch of requests: which member function carries out which, where they are legal, recording and replaying.
+// The requests themselves: interpreter_blocks.cpp, _options.cpp, _attributes.cpp, _transforms.cpp, _geometry.cpp.
+#include "render/state/interpreter.h"
+
+#include "render/rib/parser.h"
+#include "render/state/search_path.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace render {
+
+Interpreter::Interpreter(slvm::SourceManager& sources, slvm::Diagnostics& diagnostics,
+                         std::function<void(const Scene&)> render_world)
+    : sources_(sources), diagnostics_(diagnostics), render_world_(std::move(render_world)),
+      attributes_(std::make_shared<Attributes>()) {}
+
+Interpreter::~Interpreter() = default;
+
+Interpreter::Handler Interpreter::handler(RequestId id) {
+  using I = Interpreter;
+  static const auto kHandlers = [] {
+    std::array<Handler, kRequestCount> h{};
+    auto set = [&](RequestId r, Handler f) { h[static_cast<size_t>(r)] = f; };
+    using enum RequestId;
+    set(kFrameBegin, &I::frame_begin), set(kFrameEnd, &I::frame_end);
+    set(kWorldBegin, &I::world_begin), set(kWorldEnd, &I::world_end);
+    set(kAttributeBegin, &I::attribute_begin), set(kAttributeEnd, &I::attribute_end);
+    set(kTransformBegin, &I::transform_begin), set(kTransformEnd, &I::transform_end);
+    set(kSolidBegin, &I::solid_begin), set(kSolidEnd, &I::solid_end);
+    set(kMotionBegin, &I::motion_begin), set(kMotionEnd, &I::motion_end);
+    set(kObjectBegin, &I::object_begin), set(kObjectEnd, &I::recording_end);
+    set(kObjectInstance, &I::object_instance);
+    set(kArchiveBegin, &I::archive_begin), set(kArchiveEnd, &I::recording_end);
+    set(kArchiveInstance, &I::archive_instance), set(kReadArchive, &I::read_archive);
+    set(kIfBegin, &I::if_begin), set(kElseIf, &I::else_branch), set(kElse, &I::else_branch), set(kIfEnd, &I::if_end);
+    set(kDeclare, &I::declare), set(kversion, &I::version), set(kBound, &I::accept);
+
+    set(kFormat, &I::format), set(kFrameAspectRatio, &I::frame_aspect_ratio);
+    set(kScreenWindow, &I::screen_window), set(kCropWindow, &I::crop_window);
+    set(kProjection, &I::projection), set(kClipping, &I::clipping), set(kShutter, &I::shutter);
+    set(kPixelSamples, &I::pixel_samples), set(kPixelFilter, &I::pixel_filter), set(kExposure, &I::exposure);
+    set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display);
+    set(kHider, &I::hider), set(kOption, &I::option);
+
+    set(kAttribute, &I::attribute), set(kColor, &I::color), set(kOpacity, &I::opacity);
+    set(kTextureCoordinates, &I::texture_coordinates);
+    set(kLightSource, &I::light_source), set(kAreaLightSource, &I::light_source), set(kIlluminate, &I::illuminate);
+    set(kSurface, &I::shader), set(kDisplacement, &I::shader), set(kAtmosphere, &I::shader);
+    set(kShadingRate, &I::shading_rate), set(kShadingInterpolation, &I::shading_interpolation);
+    set(kMatte, &I::matte), set(kOrientation, &I::orientation);
+    set(kReverseOrientation, &I::reverse_orientation), set(kSides, &I::sides), set(kBasis, &I::basis);
+
+    set(kIdentity, &I::identity), set(kTransform, &I::transform), set(kConcatTransform, &I::concat_transform);
+    set(kPerspective, &I::perspective), set(kTranslate, &I::translate), set(kRotate, &I::rotate);
+    set(kScale, &I::scale), set(kSkew, &I::skew), set(kCoordinateSystem, &I::coordinate_system);
+    set(kScopedCoordinateSystem, &I::scoped_coordinate_system), set(kCoordSysTransform, &I::coord_sys_transform);
+
+    for (RequestId r : {kSphere, kCone, kCylinder, kHyperboloid, kParaboloid, kDisk, kTorus}) set(r, &I::quadric);
+    set(kPolygon, &I::polygon), set(kPointsPolygons, &I::points_polygons), set(kPatch, &I::patch);
+    return h;
+  }();
+  return kHandlers[static_cast<size_t>(id)];
+}
+
+void Interpreter::request(const RequestCall& call) {
+  if (record(call) || skipped(call)) return;
+  const RequestInfo& info = call.info();
+  if (!info.lacks.empty())
+    warn_once(std::string(info.name), call.where, "rib-unsupported",
+              fmt::format("{} is not supported yet: {}", info.name, info.lacks));
+  if (!legal(call)) return;
+  if (Handler h = handler(call.id)) (this->*h)(call);
+}
+
+/// Conditions are not evaluated: the first branch counts, the others are passed over.
+bool Interpreter::skipped(const RequestCall& call) {
+  if (skip_depth_ > 0) {
+    if (call.id == RequestId::kIfBegin) ++skip_depth_;
+    if (call.id == RequestId::kIfEnd && --skip_depth_ == 0) return false;
+    return true;
+  }
+  if (motion_calls_ < 0 || call.id == RequestId::kMotionEnd) return false;
+  return ++motion_calls_ > 1;
+}
+
+bool Interpreter::legal(const RequestCall& call) {
+  const RequestInfo& info = call.info();
+  if (in_world_ ? info.world : info.outside) return true;
+  if (in_world_) error(call, "options cannot change inside a world block; the request is skipped");
+  else error(call, "this belongs between WorldBegin and WorldEnd; the request is skipped");
+  return false;
+}
+
+/// True when the request became part of an object or inline archive.
+bool Interpreter::record(const RequestCall& call) {
+  if (recording_.depth == 0) return false;
+  if (call.id == recording_.begin) ++recording_.depth;
+  if (call.id == recording_.end && recording_.depth == 1) return false;
+  if (call.id == recording_.end) --recording_.depth;
+  recording_.calls->push_back(call);
+  return true;
+}
+
+namespace {
+
+constexpr int kMaxArchiveDepth = 64;
+
+} // namespace
+
+void Interpreter::replay(const RequestCall& call, const std::vector<RequestCall>& calls) {
+  if (depth_ >= kMaxArchiveDepth) {
+    error(call, fmt::format("archives and instances are nested more than {} deep", kMaxArchiveDepth));
+    return;
+  }
+  ++depth_;
+  for (const RequestCall& c : calls) request(c);
+  --depth_;
+}
+
+void Interpreter::read_archive(const RequestCall& call) {
+  auto it = archives_.find(call.text(0));
+  if (it != archives_.end()) {
+    auto calls = it->second; // may be redefined by itself
+    replay(call, *calls);
+    return;
+  }
+  if (depth_ >= kMaxArchiveDepth) {
+    error(call, fmt::format("archives and instances are nested more than {} deep", kMaxArchiveDepth));
+    return;
+  }
+  std::vector<std::string> path = options_.search_paths["archive"];
+  path.emplace_back(".");
+  auto found = find_file(call.text(0), path);
+  auto text = found ? render::read_file(*found) : std::nullopt;
+  if (!text) {
+    error_at(call.arguments[0].where, call,
+             fmt::format("no archive \"{}\" in the search path \"{}\"", call.text(0), fmt::join(path, ":")));
+    return;
+  }
+  ++depth_;
+  read_text(*found, std::move(*text));
+  --depth_;
+}
+
+bool Interpreter::read_file(const std::string& name) {
+  auto text = render::read_file(name);
+  if (!text) return false;
+  read_text(name, std::move(*text));
+  return true;
+}
+
+void Interpreter::read_text(std::string name, std::string text) {
+  slvm::FileId file = sources_.add(std::move(name), std::move(text));
+  parse_rib(sources_.text(file), file, *this, diagnostics_);
+}
+
+void Interpreter::finish() {
+  if (recording_.depth > 0)
+    diagnostics_.error(blocks_.empty() ? slvm::SourceRange{} : blocks_.back().where,
+                       fmt::format("{} \"{}\" is not closed by {}", request_info(recording_.begin).name,
+                                   recording_.name, request_info(recording_.end).name));
+  for (const Block& b : blocks_) diagnostics_.error(b.where, "this block is not closed before the end of the file");
+  if (in_world_) diagnostics_.error(blocks_.front().where, "nothing is rendered: WorldEnd is missing");
+}
+
+void Interpreter::unknown_request(std::string_view name, std::string_view suggestion, slvm::SourceRange where) {
+  std::string hint = suggestion.empty() ? "" : fmt::format("; did you mean {}?", suggestion);
+  warn_once(fmt::format("unknown {}", name), where, "rib-unknown", fmt::format("unknown request {}{}", name, hint));
+}
+
+void Interpreter::error(const RequestCall& call, std::string_view text) { error_at(call.where, call, text); }
+
+void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std::string_view text) {
+  diagnostics_.error(where, fmt::format("{}: {}", call.info().name, text));
+}
+
+void Interpreter::warn(const RequestCall& call, std::string_view text) {
+  diagnostics_.warning(call.where, "rib", fmt::format("{}: {}", call.info().name, text));
+}
+
+void Interpreter::warn_once(std::string key, slvm::SourceRange where, std::string_view name, std::string text) {
+  if (warned_.insert(std::move(key)).second) diagnostics_.warning(where, name, std::move(text));
+}
+
+void Interpreter::accept(const RequestCall&) {}
+
+void Interpreter::declare(const RequestCall& call) {
+  auto d = declarations_.declare(call.text(0), call.text(1));
+  if (!d) error_at(call.arguments[1].where, call, d.error());
+}
+
+void Interpreter::version(const RequestCall& call) {
+  constexpr float kNewest = 3.045f;
+  if (call.number(0) > kNewest)
+    warn_once("version", call.where, "rib", fmt::format("RIB version {:g} is newer than 3.04; read as 3.04", call.number(0)));
+}
+
+} // namespace render

@@ -1,0 +1,205 @@
+// Requests that set attributes, shaders and lights.
+#include "render/state/interpreter.h"
+
+#include "render/state/transforms.h"
+
+#include <fmt/format.h>
+
+namespace render {
+
+/// The attributes, copied first when a primitive or an open block holds on to them.
+Attributes& Interpreter::edit() {
+  if (attributes_.use_count() > 1) attributes_ = std::make_shared<Attributes>(*attributes_);
+  return *attributes_;
+}
+
+void Interpreter::attribute(const RequestCall& call) {
+  const std::string& category = call.text(0);
+  for (const Param& p : call.params) {
+    auto value = loose_value(p, declarations_);
+    if (!value) {
+      error_at(p.where, call, value.error());
+      continue;
+    }
+    edit().named[category + ":" + value->first] = value->second;
+    if (category == "identifier" && value->first == "name" && !value->second.strings.empty())
+      edit().name = value->second.strings[0];
+  }
+  if (category == "displacementbound") displacement_bound(call);
+  else if (category != "user" && category != "identifier")
+    warn_once("Attribute " + category, call.where, "rib-unsupported",
+              fmt::format("Attribute \"{}\" has no effect yet (shaders can read its values)", category));
+}
+
+void Interpreter::displacement_bound(const RequestCall& call) {
+  if (const Param* sphere = call.find_param("sphere")) {
+    if (sphere->numbers.size() == 1 && sphere->numbers[0] >= 0) edit().displacement_sphere = sphere->numbers[0];
+    else error_at(sphere->where, call, "\"sphere\" takes one number, 0 or more");
+  }
+  if (const Param* space = call.find_param("coordinatesystem")) {
+    if (space->strings.size() == 1) edit().displacement_space = space->strings[0];
+    else error_at(space->where, call, "\"coordinatesystem\" takes one string");
+  }
+}
+
+void Interpreter::color(const RequestCall& call) {
+  auto c = call.numbers(0);
+  edit().color = {c[0], c[1], c[2]};
+}
+
+void Interpreter::opacity(const RequestCall& call) {
+  auto o = call.numbers(0);
+  edit().opacity = {o[0], o[1], o[2]};
+}
+
+void Interpreter::texture_coordinates(const RequestCall& call) {
+  auto& tc = edit().texture_coordinates;
+  for (int i = 0; i < 8; ++i) tc[static_cast<size_t>(i)] = call.number(i);
+}
+
+std::shared_ptr<ShaderRequest> Interpreter::make_shader(const RequestCall& call) {
+  auto shader = std::make_shared<ShaderRequest>();
+  shader->kind = call.id;
+  shader->name = call.text(0);
+  shader->shader_to_camera = ctm_;
+  shader->where = call.where;
+  for (const Param& p : call.params) {
+    ShaderParam& out = shader->params.emplace_back();
+    out.numbers = p.numbers;
+    out.strings = p.strings;
+    out.where = p.where;
+    auto declared = declarations_.resolve(p.token);
+    if (declared) {
+      out.declaration = *declared;
+      out.name = declared->name;
+    } else if (p.token.find_first_of(" \t[") == std::string::npos) {
+      out.name = p.token; // the shader's own declaration decides
+    } else {
+      error_at(p.where, call, declared.error());
+      shader->params.pop_back();
+    }
+  }
+  return shader;
+}
+
+/// Surface, Displacement, Atmosphere.
+void Interpreter::shader(const RequestCall& call) {
+  auto shader = call.text(0) == "null" ? nullptr : make_shader(call);
+  Attributes& a = edit();
+  switch (call.id) {
+  case RequestId::kSurface:
+    // "null" as a surface is a shader that draws nothing, unlike no surface, which is drawn by the default one.
+    a.surface = shader ? shader : make_shader(call);
+    break;
+  case RequestId::kDisplacement: a.displacement = shader; break;
+  default: a.atmosphere = shader; break;
+  }
+}
+
+void Interpreter::light_source(const RequestCall& call) {
+  if (call.text(0) == "null") return;
+  auto light = make_shader(call);
+  light->handle = call.text(1);
+  lights_[light->handle] = light;
+  auto& on = edit().lights;
+  std::erase_if(on, [&](const auto& l) { return l->handle == light->handle; });
+  on.push_back(light);
+}
+
+void Interpreter::illuminate(const RequestCall& call) {
+  const std::string& handle = call.text(0);
+  auto it = lights_.find(handle);
+  if (it == lights_.end()) {
+    error_at(call.arguments[0].where, call, fmt::format("no light has the handle \"{}\"", handle));
+    return;
+  }
+  auto& on = edit().lights;
+  std::erase_if(on, [&](const auto& l) { return l->handle == handle; });
+  if (call.integer(1) != 0) on.push_back(it->second);
+}
+
+void Interpreter::shading_rate(const RequestCall& call) {
+  constexpr float kFinest = 1e-4f;
+  if (call.number(0) > 0) edit().shading_rate = std::max(call.number(0), kFinest);
+  else error(call, "the shading rate must be positive");
+}
+
+void Interpreter::shading_interpolation(const RequestCall& call) {
+  if (call.text(0) == "smooth") edit().smooth_shading = true;
+  else if (call.text(0) == "constant") edit().smooth_shading = false;
+  else error(call, fmt::format("\"{}\" is not \"constant\" or \"smooth\"", call.text(0)));
+}
+
+void Interpreter::matte(const RequestCall& call) { edit().matte = call.integer(0) != 0; }
+
+void Interpreter::orientation(const RequestCall& call) {
+  constexpr std::pair<std::string_view, Orientation> kNames[] = {{"outside", Orientation::kOutside},
+                                                                 {"inside", Orientation::kInside},
+                                                                 {"lh", Orientation::kLeftHanded},
+                                                                 {"rh", Orientation::kRightHanded}};
+  for (auto [name, value] : kNames)
+    if (name == call.text(0)) {
+      edit().orientation = value;
+      return;
+    }
+  error(call, fmt::format("\"{}\" is not \"outside\", \"inside\", \"lh\" or \"rh\"", call.text(0)));
+}
+
+void Interpreter::reverse_orientation(const RequestCall&) {
+  Orientation& o = edit().orientation;
+  switch (o) {
+  case Orientation::kOutside: o = Orientation::kInside; break;
+  case Orientation::kInside: o = Orientation::kOutside; break;
+  case Orientation::kLeftHanded: o = Orientation::kRightHanded; break;
+  case Orientation::kRightHanded: o = Orientation::kLeftHanded; break;
+  }
+}
+
+void Interpreter::sides(const RequestCall& call) {
+  if (call.integer(0) == 1 || call.integer(0) == 2) edit().sides = call.integer(0);
+  else error(call, "a surface has 1 or 2 sides");
+}
+
+namespace {
+
+struct NamedBasis {
+  std::string_view name;
+  CubicBasis basis;
+};
+
+/// RISpec 3.2, section 5.3: rows hold the coefficients of t^3, t^2, t and 1.
+const NamedBasis* find_basis(std::string_view name) {
+  constexpr float k6 = 1.0f / 6;
+  static const NamedBasis kBases[] = {
+      {"bezier", bezier_basis()},
+      {"b-spline",
+       {{{-k6, 3 * k6, -3 * k6, k6, 3 * k6, -6 * k6, 3 * k6, 0, -3 * k6, 0, 3 * k6, 0, k6, 4 * k6, k6, 0}}, 1}},
+      {"catmull-rom", {{{-.5f, 1.5f, -1.5f, .5f, 1, -2.5f, 2, -.5f, -.5f, 0, .5f, 0, 0, 1, 0, 0}}, 1}},
+      {"hermite", {{{2, 1, -2, 1, -3, -2, 3, -1, 0, 1, 0, 0, 1, 0, 0, 0}}, 2}},
+      {"power", {{}, 4}}};
+  for (const NamedBasis& b : kBases)
+    if (b.name == name) return &b;
+  return nullptr;
+}
+
+} // namespace
+
+void Interpreter::basis(const RequestCall& call) {
+  for (int side : {0, 1}) {
+    const Argument& a = call.arguments[static_cast<size_t>(2 * side)];
+    CubicBasis basis{{}, call.integer(2 * side + 1)};
+    if (!a.numbers.empty()) {
+      basis.matrix = matrix_from(a.numbers);
+    } else if (const NamedBasis* named = find_basis(a.strings[0])) {
+      basis.matrix = named->basis.matrix;
+    } else {
+      error_at(a.where, call, fmt::format("unknown basis \"{}\"; known are bezier, b-spline, catmull-rom, hermite, "
+                                          "power, or 16 numbers",
+                                          a.strings[0]));
+      return;
+    }
+    (side == 0 ? edit().ubasis : edit().vbasis) = basis;
+  }
+}
+
+} // namespace render

@@ -1,0 +1,234 @@
+// Requests that set options.
+#include "render/state/interpreter.h"
+#include "render/state/search_path.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace render {
+
+void Interpreter::format(const RequestCall& call) {
+  constexpr int kMaxResolution = 1 << 16;
+  for (int i : {0, 1})
+    if (call.integer(i) > kMaxResolution) {
+      error(call, fmt::format("{} pixels are more than the {} an image may have in one direction", call.integer(i),
+                              kMaxResolution));
+      return;
+    }
+  if (call.integer(0) > 0) options_.xres = call.integer(0);
+  if (call.integer(1) > 0) options_.yres = call.integer(1);
+  if (call.number(2) > 0) options_.pixel_aspect = call.number(2);
+}
+
+void Interpreter::frame_aspect_ratio(const RequestCall& call) {
+  if (call.number(0) > 0) options_.frame_aspect = call.number(0);
+  else error(call, "the aspect ratio must be positive");
+}
+
+void Interpreter::screen_window(const RequestCall& call) {
+  std::array w{call.number(0), call.number(1), call.number(2), call.number(3)};
+  if (w[0] == w[1] || w[2] == w[3]) error(call, "the window has no area");
+  else options_.screen_window = w;
+}
+
+void Interpreter::crop_window(const RequestCall& call) {
+  std::array c{call.number(0), call.number(1), call.number(2), call.number(3)};
+  if (c[0] >= c[1] || c[2] >= c[3]) error(call, "the window is empty; expected xmin < xmax and ymin < ymax");
+  else options_.crop = c;
+}
+
+void Interpreter::projection(const RequestCall& call) {
+  std::string name = call.has(0) ? call.text(0) : "null";
+  if (name == "perspective") {
+    options_.projection = ProjectionKind::kPerspective;
+  } else if (name == "orthographic" || name == "null") {
+    options_.projection = ProjectionKind::kOrthographic;
+  } else {
+    error_at(call.arguments[0].where, call,
+             fmt::format("unknown projection \"{}\"; expected \"perspective\" or \"orthographic\"", name));
+    return;
+  }
+  for (const Param& p : call.params) {
+    bool is_fov = call.find_param("fov") == &p;
+    if (!is_fov) {
+      diagnostics_.warning(p.where, "rib-unused", fmt::format("Projection: \"{}\" has no meaning here", p.token));
+    } else if (p.numbers.size() != 1 || !(p.numbers[0] > 0) || !(p.numbers[0] < 180)) {
+      error_at(p.where, call, "\"fov\" takes one number between 0 and 180 degrees");
+    } else {
+      options_.fov = p.numbers[0];
+    }
+  }
+  // Camera space starts here; what came before acts on the projected image.
+  options_.screen_transform = ctm_;
+  ctm_ = {};
+}
+
+void Interpreter::clipping(const RequestCall& call) {
+  float near = call.number(0), far = call.number(1);
+  if (!(near < far)) {
+    error(call, fmt::format("the near plane ({:g}) is not in front of the far one ({:g})", near, far));
+    return;
+  }
+  constexpr float kNearest = 1e-6f;
+  options_.near_plane = std::max(near, kNearest);
+  options_.far_plane = far;
+}
+
+void Interpreter::shutter(const RequestCall& call) {
+  options_.shutter_open = call.number(0);
+  options_.shutter_close = call.number(1);
+}
+
+void Interpreter::pixel_samples(const RequestCall& call) {
+  constexpr float kMost = 64;
+  float x = call.number(0), y = call.number(1);
+  if (!(x >= 1) || !(y >= 1) || x > kMost || y > kMost)
+    error(call, fmt::format("expected 1 to {} samples in each direction", kMost));
+  options_.xsamples = static_cast<int>(std::clamp(std::round(x), 1.0f, kMost));
+  options_.ysamples = static_cast<int>(std::clamp(std::round(y), 1.0f, kMost));
+}
+
+void Interpreter::pixel_filter(const RequestCall& call) {
+  constexpr std::pair<std::string_view, FilterKind> kFilters[] = {
+      {"box", FilterKind::kBox},           {"triangle", FilterKind::kTriangle}, {"gaussian", FilterKind::kGaussian},
+      {"catmull-rom", FilterKind::kCatmullRom}, {"b-spline", FilterKind::kBSpline},  {"sinc", FilterKind::kSinc},
+      {"mitchell", FilterKind::kMitchell}};
+  constexpr float kWidest = 32;
+  float x = call.number(1), y = call.number(2);
+  if (!(x > 0) || !(y > 0) || x > kWidest || y > kWidest) {
+    error(call, fmt::format("expected widths above 0 and up to {} pixels", kWidest));
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (auto [name, kind] : kFilters) {
+    if (name == call.text(0)) {
+      options_.filter = {kind, x, y};
+      return;
+    }
+    names.push_back(name);
+  }
+  error_at(call.arguments[0].where, call,
+           fmt::format("unknown filter \"{}\"; known are {}", call.text(0), fmt::join(names, ", ")));
+}
+
+void Interpreter::exposure(const RequestCall& call) {
+  if (!(call.number(1) > 0)) {
+    error(call, "gamma must be positive");
+    return;
+  }
+  options_.gain = call.number(0);
+  options_.gamma = call.number(1);
+}
+
+void Interpreter::imager(const RequestCall& call) {
+  options_.imager = call.text(0) == "null" ? nullptr : make_shader(call);
+}
+
+void Interpreter::quantize(const RequestCall& call) {
+  Quantization q{call.integer(1), call.integer(2), call.integer(3), call.number(4), true};
+  if (q.min > q.max) {
+    error(call, "min is larger than max");
+    return;
+  }
+  if (call.text(0) == "rgba" || call.text(0) == "rgb" || call.text(0) == "a") options_.rgba = q;
+  else if (call.text(0) == "z") options_.z = q;
+  else warn(call, fmt::format("\"{}\" is not \"rgba\" or \"z\"; the request is ignored", call.text(0)));
+}
+
+void Interpreter::display(const RequestCall& call) {
+  DisplayRequest d{call.text(0), call.text(1), call.text(2), {}, call.where};
+  constexpr std::string_view kModes[] = {"rgb", "rgba", "rgbz", "rgbaz", "a", "z", "az"};
+  auto is_mode = [&](const std::string& s) { return std::find(std::begin(kModes), std::end(kModes), s) != std::end(kModes); };
+  if (is_mode(d.type) && !is_mode(d.mode)) {
+    error_at(call.arguments[1].where, call,
+             fmt::format("\"{0}\" is a mode; the type is missing, as in Display \"{1}\" \"tiff\" \"{0}\"", d.type, d.name));
+    return;
+  }
+  for (const Param& p : call.params) {
+    auto value = loose_value(p, declarations_);
+    if (value) d.params[value->first] = value->second;
+    else error_at(p.where, call, value.error());
+  }
+  bool add = d.name.starts_with('+');
+  if (add) d.name.erase(0, 1);
+  else options_.displays.clear();
+  options_.displays.push_back(std::move(d));
+}
+
+void Interpreter::hider(const RequestCall& call) {
+  if (call.text(0) != "hidden")
+    warn_once("Hider " + call.text(0), call.where, "rib-unsupported",
+              fmt::format("Hider \"{}\" is not supported yet: \"hidden\" is used", call.text(0)));
+  for (const Param& p : call.params) {
+    auto value = loose_value(p, declarations_);
+    if (!value) {
+      error_at(p.where, call, value.error());
+    } else if (value->first == "jitter" && value->second.numbers.size() == 1) {
+      options_.jitter = value->second.numbers[0] != 0;
+    } else {
+      warn_once("Hider/" + value->first, p.where, "rib-unsupported",
+                fmt::format("Hider parameter \"{}\" is not supported yet and has no effect", value->first));
+    }
+  }
+}
+
+void Interpreter::option(const RequestCall& call) {
+  const std::string& category = call.text(0);
+  if (in_world_ && category != "user") {
+    error(call, "options cannot change inside a world block; the request is skipped");
+    return;
+  }
+  if (category == "searchpath") {
+    search_path(call);
+    return;
+  }
+  for (const Param& p : call.params) {
+    auto value = loose_value(p, declarations_);
+    if (!value) {
+      error_at(p.where, call, value.error());
+      continue;
+    }
+    options_.named[category + ":" + value->first] = value->second;
+    if (in_world_) scene_.options.named[category + ":" + value->first] = value->second;
+    if (category == "shutter" && value->first == "offset" && value->second.numbers.size() == 1)
+      options_.shutter_offset = value->second.numbers[0];
+  }
+  if (category == "limits") limits(call);
+  else if (category != "user" && category != "shutter")
+    warn_once("Option " + category, call.where, "rib-unsupported",
+              fmt::format("Option \"{}\" has no effect yet (shaders can read its values)", category));
+}
+
+void Interpreter::search_path(const RequestCall& call) {
+  for (const Param& p : call.params) {
+    auto value = loose_value(p, declarations_);
+    if (!value || value->second.strings.empty()) {
+      error_at(p.where, call, value ? fmt::format("\"{}\" takes a string", value->first) : value.error());
+      continue;
+    }
+    const std::string& kind = value->first;
+    const std::string& text = value->second.strings[0];
+    auto& current = options_.search_paths[kind];
+    current = parse_search_path(text, current, standard_paths[kind]);
+    options_.named["searchpath:" + kind] = value->second;
+  }
+}
+
+void Interpreter::limits(const RequestCall& call) {
+  const auto& named = options_.named;
+  auto number = [&](const char* name, size_t i) -> std::optional<float> {
+    auto it = named.find(std::string("limits:") + name);
+    if (it == named.end() || !call.find_param(name) || it->second.numbers.size() <= i) return {};
+    return it->second.numbers[i];
+  };
+  auto clamp = [](float x, float low, float high) { return static_cast<int>(std::clamp(x, low, high)); };
+  if (auto w = number("bucketsize", 0)) options_.bucket_width = clamp(*w, 4, 1024);
+  if (auto h = number("bucketsize", 1)) options_.bucket_height = clamp(*h, 4, 1024);
+  if (auto n = number("gridsize", 0)) options_.grid_size = clamp(*n, 4, 65536);
+  if (auto n = number("eyesplits", 0)) options_.eye_splits = clamp(*n, 0, 24);
+  for (size_t i = 0; i < 3; ++i)
+    if (auto o = number("othreshold", i)) options_.opacity_threshold[static_cast<int>(i)] = *o;
+}
+
+} // namespace render

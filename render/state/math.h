@@ -1,0 +1,70 @@
+// Vectors, boxes and the few matrix helpers the renderer needs on top of slvm::Matrix4 (row vectors: p' = p * M).
+#pragma once
+
+#include "slvm/support/matrix.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace render {
+
+using Vec2 = glm::vec2;
+using Vec3 = glm::vec3;
+using Color = glm::vec3;
+using slvm::Matrix4;
+
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+inline constexpr float kPi = 3.14159265358979323846f;
+
+inline float radians(float degrees) { return degrees * (kPi / 180.0f); }
+
+inline Vec3 transform_point(const Matrix4& m, Vec3 p) {
+  auto r = slvm::transform_point(m, {p.x, p.y, p.z});
+  return {r[0], r[1], r[2]};
+}
+inline Vec3 transform_vector(const Matrix4& m, Vec3 v) {
+  auto r = slvm::transform_vector(m, {v.x, v.y, v.z});
+  return {r[0], r[1], r[2]};
+}
+inline bool is_affine(const Matrix4& m) {
+  return m(0, 3) == 0 && m(1, 3) == 0 && m(2, 3) == 0 && m(3, 3) == 1;
+}
+/// The inverse, or the identity for a singular matrix (a scaling by zero in a scene must not stop the rest of it).
+inline Matrix4 inverse_or_identity(const Matrix4& m) {
+  Matrix4 inverse;
+  return slvm::invert(m, inverse) ? inverse : Matrix4{};
+}
+
+/// An axis-aligned box; empty when just made.
+struct Box {
+  Vec3 min{kInfinity};
+  Vec3 max{-kInfinity};
+
+  bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+  void add(Vec3 p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+  }
+  void add(const Box& b) {
+    min = glm::min(min, b.min);
+    max = glm::max(max, b.max);
+  }
+  void grow(float by) {
+    min -= by;
+    max += by;
+  }
+  Vec3 corner(int i) const { return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z}; }
+};
+
+/// The box of a box's eight transformed corners.
+inline Box transform_box(const Matrix4& m, const Box& b) {
+  Box out;
+  for (int i = 0; i < 8; ++i) out.add(transform_point(m, b.corner(i)));
+  return out;
+}
+
+} // namespace render
