@@ -27,10 +27,11 @@ template <class T, Draw kDraw>
 HWY_INLINE void draw(const Operand& result, const Operand* counter, size_t lanes,
                      const KernelContext& context) {
   auto seed = static_cast<uint32_t>(context.seed), high = static_cast<uint32_t>(context.seed >> 32);
+  Bits next_points = hn::Iota(BitsTag(), 1);
   for (size_t lane = 0; lane < lanes; lane += kWidth) {
     Bits hash(seed);
     if constexpr (kDraw == Draw::kPerPoint)
-      hash = hash + hn::Iota(BitsTag(), context.first_point + static_cast<uint32_t>(lane)) + Bits(1u);
+      hash = hash + next_points + Bits(context.first_point + static_cast<uint32_t>(lane));
     hash = mix_bits(hash) ^ Bits(high);
     if (counter != nullptr) hash = mix_bits(hash) + bits_of(loaded<Float>(*counter, lane) + 0.0f);
     put_unit(result, lane, mix_bits(hash), static_cast<T*>(nullptr));

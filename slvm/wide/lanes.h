@@ -133,7 +133,7 @@ template <class R, class... A> struct Shape<R(A...)> {
       call<kFunction>(o, lane, indexes, argument<A>(o[operand_of(I)], lane)...);
   }
   template <auto kFunction>
-  static void run(const Operand* operands, uint32_t, size_t lanes, const KernelContext&) {
+  static HWY_FLATTEN void run(const Operand* operands, uint32_t, size_t lanes, const KernelContext&) {
     strip<kFunction>(operands, lanes, std::index_sequence_for<A...>());
   }
 };
