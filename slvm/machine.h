@@ -15,6 +15,7 @@
 #include "slvm/support/result.h"
 #include "slvm/support/string_pool.h"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -24,6 +25,9 @@
 namespace slvm {
 
 struct KernelTable;
+namespace ir {
+class ConstantEvaluator;
+}
 
 struct MachineOptions {
   /// Points a strip: how many are taken through a run of instructions at a time. A multiple of 16; results do not
@@ -73,15 +77,20 @@ public:
   /// For lights: the names in __category, in order.
   std::span<const std::string> categories() const { return categories_; }
 
+  /// Differs between all instances of one machine.
+  uint64_t id() const { return id_; }
+
+  struct Bound; ///< the VM's own: parameter and constant planes, functions of imports (slvm/exec/bound.h)
+  const Bound& bound() const { return *bound_; }
+
 private:
   friend class Machine;
-  friend class ShadingContext;
-  Instance() = default;
+  Instance();
+  uint64_t id_ = 0;
   std::shared_ptr<const Shader> shader_;
   std::unique_ptr<const Program> specialised_;
-  Matrix4 shader_to_current_, current_to_shader_;
+  Matrix4 shader_to_current_;
   std::vector<std::string> categories_;
-  struct Bound; // parameter and constant planes, decoded code
   std::unique_ptr<Bound> bound_;
 };
 
@@ -106,10 +115,14 @@ public:
   /// Run-time messages so far, each once with its count, in order of file and line.
   std::vector<RuntimeMessage> messages() const;
   void report(const RuntimeMessage&) const;
+  /// Different messages kept; more are dropped.
+  static constexpr size_t kMaxMessages = 1000;
 
 private:
   MachineOptions options_;
   const KernelTable* kernels_;
+  std::unique_ptr<ir::ConstantEvaluator> evaluator_;
+  mutable std::atomic<uint64_t> instances_{0};
   mutable StringPool strings_;
   mutable std::mutex messages_mutex_;
   mutable std::vector<RuntimeMessage> messages_;

@@ -21,7 +21,8 @@ enum class ShadeopKind : uint8_t {
 /// Properties, or-ed in the flags column.
 enum ShadeopFlags : uint32_t {
   kPure = 0,                  ///< depends on its arguments only (default)
-  kHiddenVarying = 1u << 0,   ///< varying even when all arguments are uniform (random, Du, area...)
+  kHiddenVarying = 1u << 0,   ///< what it stores is varying even when all arguments are uniform (random, Du, messages);
+                              ///< not a result declared uniform, nor strings
   kDerivative = 1u << 1,      ///< differentiates its first varying arguments along u and v
   kEffect = 1u << 2,          ///< must be executed, in order, exactly where it stands (printf, messages that store)
   kReadsState = 1u << 3,      ///< reads state that effects may change: not merged across them

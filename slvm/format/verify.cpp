@@ -140,6 +140,10 @@ private:
     if (emitter || op == Opcode::k_illuminance)
       for (int32_t r : open_)
         if (opcode_info(regions_[static_cast<size_t>(r)].open).flags & kGridOnly) fail(at, "light statements do not nest");
+    if (emitter)
+      for (Global g : {Global::kL, Global::kPs, Global::kNs})
+        if (std::none_of(p_.slots.begin(), p_.slots.end(), [&](const Slot& s) { return !s.parameter && s.name == global_info(g).name; }))
+          fail(at, "a light cone without L, Ps and Ns");
     Region region{op, at, 0, 0, at + 1 + static_cast<uint32_t>(words.size()), open_.empty() ? -1 : open_.back()};
     open_.push_back(static_cast<int32_t>(regions_.size()));
     regions_.push_back(region);
@@ -239,6 +243,12 @@ private:
         if (op == Opcode::k_movm) fail(at, "a masked copy to a uniform register");
       }
       return;
+    case Opcode::k_first:
+      if (w[0] == 0 || w[0] > 16) fail(at, "a copy of no or too many planes");
+      check_register(at, w[1], w[0], true);
+      check_register(at, w[2], w[0], false);
+      check_uniform(at, w[1]);
+      return;
     case Opcode::k_astart: check_writable_array(at, w[0]); return;
     case Opcode::k_aload: {
       const ArrayInfo& a = check_array(at, w[2]);
@@ -314,8 +324,8 @@ private:
       }
       if (o.uniform) check_uniform(at, o.word);
       if (o.store) uniform_store |= !is_varying(at, o.word);
-      // Kernels run for as many lanes as what they store to has.
-      else if (uniform_store && info.kind == ShadeopKind::kKernel) check_uniform(at, o.word);
+      // Kernels run for as many lanes as what they store to has. Of an array, arraylength reads no lane at all.
+      else if (uniform_store && info.kind == ShadeopKind::kKernel && !is_array) check_uniform(at, o.word);
     }
     if (info.kind == ShadeopKind::kKernel) {
       size_t stores = 0, varying_stores = 0;

@@ -106,6 +106,15 @@ private:
   LowOperand define(ValueId v) { return locations_[v] = new_reg(m_.type(v), m_.varying(v)); }
   LowOperand use(ValueId v) const { return locations_[v]; }
 
+  /// A value that must be uniform. One that only control made varying (a string chosen in a loop that lanes leave one
+  /// by one) is that of the first active lane.
+  LowOperand use_uniform(ValueId v) {
+    if (!m_.varying(v) || m_.values[v].array >= 0) return use(v);
+    LowOperand reg = new_reg(m_.type(v), false);
+    add(make(code_of(Opcode::k_first), {word(static_cast<uint32_t>(components(m_.type(v)))), reg, use(v)}, 1, 1));
+    return reg;
+  }
+
   // ---- Instructions. Those of a strip block wait in pending_ until something ends the block.
 
   LowInst make(uint16_t opcode, std::vector<LowOperand> operands, uint32_t first_store = 0, uint32_t stores = 0) const {
@@ -308,7 +317,7 @@ private:
     const Slot& slot = m_.slots[inst.index];
     add(make(code_of(slot.varying ? Opcode::k_movm : Opcode::k_mov),
              {word(static_cast<uint32_t>(components(slot.type))), word(make_operand(Space::kSlot, inst.index)),
-              use(inst.args[0])}));
+              slot.varying ? use(inst.args[0]) : use_uniform(inst.args[0])}));
   }
 
   void emit_call(const Inst& inst) {
@@ -326,7 +335,8 @@ private:
       bool is_positional = signature.variadic() || i < positional;
       if (is_token_value || (is_positional && signature.param(param).any))
         reads.push_back(word(static_cast<uint32_t>(m_.type(inst.args[i]))));
-      reads.push_back(use(inst.args[i]));
+      bool must_be_uniform = is_positional && signature.param(param).uniform;
+      reads.push_back(must_be_uniform ? use_uniform(inst.args[i]) : use(inst.args[i]));
     }
     size_t result = 0;
     auto store = [&](bool any) {
@@ -489,7 +499,8 @@ private:
     const Inst& inst = m_.insts[id];
     flush();
     std::vector<LowOperand> fixed;
-    for (uint32_t i = 0; i < 4; ++i) fixed.push_back(use(inst.args[i]));
+    fixed.push_back(use_uniform(inst.args[0]));
+    for (uint32_t i = 1; i < 4; ++i) fixed.push_back(use(inst.args[i]));
     frames_.push_back({&inst, begin_carried(inst)});
     uint32_t begin = add(Opcode::k_illuminance, {target(0), word(inst.index), fixed[0], fixed[1], fixed[2], fixed[3]});
     open_mask();

@@ -89,11 +89,14 @@ private:
 
   void visit_call(const Inst& inst) {
     const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
-    if (info.signature.uniform_result) return;
     bool varying = info.flags & kHiddenVarying;
     for (ValueId a : inst.args) varying |= m_.varying(a);
-    if (varying)
-      for (ValueId r : inst.results) make_varying(r);
+    if (!varying) return;
+    for (size_t i = 0; i < inst.results.size(); ++i) {
+      bool is_result = i == 0 && info.signature.result != Type::kVoid;
+      bool uniform = (is_result && info.signature.uniform_result) || m_.type(inst.results[i]) == Type::kString;
+      if (!uniform) make_varying(inst.results[i]);
+    }
   }
 
   void visit_exit(const Inst& inst) {

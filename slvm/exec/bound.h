@@ -1,0 +1,51 @@
+// What instantiate() prepares so that runs start at once: constants and parameter values as planes, functions of the
+// program's imports, and where predefined variables are among its slots.
+#pragma once
+
+#include "slvm/exec/grid_ops.h"
+#include "slvm/machine.h"
+#include "slvm/wide/operand.h"
+
+#include <new>
+
+namespace slvm {
+
+/// Memory for planes: aligned, not initialised, grows only.
+class PlaneMemory {
+public:
+  /// At least this many floats; contents are lost when it grows.
+  float* reserve(size_t floats) {
+    if (floats > size_) {
+      data_.reset(static_cast<float*>(::operator new[](floats * sizeof(float), std::align_val_t{kPlaneAlign})));
+      size_ = floats;
+    }
+    return data_.get();
+  }
+  float* data() const { return data_.get(); }
+
+private:
+  struct Free {
+    void operator()(float* p) const { ::operator delete[](p, std::align_val_t{kPlaneAlign}); }
+  };
+  std::unique_ptr<float, Free> data_;
+  size_t size_ = 0;
+};
+
+struct Instance::Bound {
+  PlaneMemory constants;            ///< kMaxLanes floats a plane
+  PlaneMemory params;               ///< values of parameters that have one
+  std::vector<Planes> param_planes; ///< by slot; data null: no value here (a predefined variable, or computed by init)
+  std::vector<int32_t> init_sections; ///< defaults to compute at the begin of each run
+  struct Import {
+    Kernel kernel = nullptr;
+    GridOp grid_op = nullptr;
+  };
+  std::vector<Import> imports;
+  std::vector<Global> globals;         ///< by slot; kCount for parameters
+  int32_t slot_of[kGlobalCount];       ///< by predefined variable; -1: not used by the program
+  size_t most_operands = 0;            ///< words of the longest call
+  bool emits = false;                  ///< a light with illuminate or solar: not an ambient light
+  bool reads_messages = false;         ///< its results depend on other shaders' parameters
+};
+
+} // namespace slvm

@@ -1,0 +1,121 @@
+// ShadingContext: the order of shaders on a grid.
+#include "slvm/exec/run.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace slvm {
+
+struct ShadingContext::Impl {
+  Impl(const Machine& m, RendererServices& s) : state{m, s, cache} {}
+
+  enum Role { kDisplacement, kSurface, kAtmosphere, kSingle, kRoles };
+
+  // The run of an instance in a role; kept from grid to grid with its memory.
+  ShaderRun& run_of(Role role, const Instance& instance) {
+    std::unique_ptr<ShaderRun>& run = runs[role];
+    if (!run || ids[role] != instance.id()) {
+      run = std::make_unique<ShaderRun>(state, instance);
+      ids[role] = instance.id();
+    }
+    return *run;
+  }
+
+  void begin(const ShaderSet& set, Grid& grid) {
+    shaders = set;
+    state.grid = &grid;
+    state.shaders = &shaders;
+    cache.clear();
+  }
+
+  const ShaderRun* execute(Role role, const Instance* instance) {
+    if (!instance) return nullptr;
+    ShaderRun& run = run_of(role, *instance);
+    run.prepare();
+    const ShaderRun*& known = role == kDisplacement ? state.displacement : role == kAtmosphere ? state.atmosphere : state.surface;
+    if (role != kSingle) known = &run; // lights ask for its parameters while it runs
+    run.execute();
+    return &run;
+  }
+
+  LightCache cache;
+  ShaderSet shaders;
+  GridState state;
+  std::unique_ptr<ShaderRun> runs[kRoles];
+  uint64_t ids[kRoles] = {};
+};
+
+ShadingContext::ShadingContext(const Machine& m, RendererServices& s) : impl_(std::make_unique<Impl>(m, s)) {}
+ShadingContext::~ShadingContext() = default;
+
+namespace {
+
+// Ci and Oi begin as the surface's colour and opacity.
+void begin_output(Grid& grid, Global out, Global in) {
+  const Planes from = grid.variable(in);
+  float* to = grid.varying(out);
+  for (size_t c = 0; c < 3; ++c) {
+    float* plane = to + c * grid.pitch();
+    if (from.data && from.step) std::memcpy(plane, from.data + c * from.pitch, grid.pitch() * sizeof(float));
+    else std::fill_n(plane, grid.pitch(), from.data ? from.data[c * from.pitch] : 1.0f);
+  }
+}
+
+} // namespace
+
+void ShadingContext::displace(const ShaderSet& set, Grid& grid) {
+  impl_->begin(set, grid);
+  impl_->state.displacement = impl_->state.surface = impl_->state.atmosphere = nullptr;
+  if (set.displacement && set.surface && set.displacement->bound().reads_messages) {
+    ShaderRun& surface = impl_->run_of(Impl::kSurface, *set.surface);
+    surface.prepare(); // parameters of a shader that has not run have their initial values
+    impl_->state.surface = &surface;
+  }
+  impl_->execute(Impl::kDisplacement, set.displacement);
+}
+
+void ShadingContext::shade_displaced(const ShaderSet& set, Grid& grid) {
+  impl_->begin(set, grid);
+  begin_output(grid, Global::kCi, Global::kCs);
+  begin_output(grid, Global::kOi, Global::kOs);
+  impl_->execute(Impl::kSurface, set.surface);
+  impl_->execute(Impl::kAtmosphere, set.atmosphere);
+}
+
+void ShadingContext::shade(const ShaderSet& set, Grid& grid) {
+  displace(set, grid);
+  shade_displaced(set, grid);
+}
+
+void ShadingContext::run(const Instance& instance, Grid& grid) {
+  impl_->begin({}, grid);
+  impl_->state.displacement = impl_->state.surface = impl_->state.atmosphere = nullptr;
+  const ShaderRun* run = impl_->execute(Impl::kSingle, &instance);
+  if (instance.shader().kind() != ShaderKind::kLight) return;
+  // A light's results are in memory of its run: bring them to the grid, those of several blocks added up.
+  for (Global g : {Global::kL, Global::kCl, Global::kOl}) {
+    float* out = grid.varying(g);
+    std::fill_n(out, 3 * grid.pitch(), 0.0f);
+    Planes own = const_cast<ShaderRun*>(run)->slot(g) ? *const_cast<ShaderRun*>(run)->slot(g) : Planes{};
+    for (size_t e = 0; e < std::max<size_t>(run->emission_count, 1); ++e) {
+      const Emission* emission = run->emission_count > 1 ? &run->emissions[e] : nullptr;
+      const MaskWord* lit = run->emission_count ? run->emissions[e].lit.data() : run->mask.at_level(0);
+      Planes from = !emission ? own : g == Global::kL ? emission->from_light : g == Global::kCl ? emission->colour : emission->opacity;
+      if (!from.data) continue;
+      for (size_t c = 0; c < 3; ++c)
+        mask_for_each(lit, grid.points(), [&](size_t i) {
+          float x = from.get(c, i);
+          float& to = out[c * grid.pitch() + i];
+          to = g == Global::kL ? x : to + x;
+        });
+    }
+  }
+}
+
+const Planes* ShadingContext::output(const Instance& instance, std::string_view name) const {
+  for (size_t r = 0; r < Impl::kRoles; ++r)
+    if (impl_->runs[r] && impl_->ids[r] == instance.id()) return impl_->runs[r]->parameter(name);
+  return nullptr;
+}
+
+} // namespace slvm

@@ -1,0 +1,268 @@
+// The dispatch loop. Grid level and strip blocks run the same code; they differ in the frame (where operands are,
+// how many lanes) and in whose mask stack control flow works on.
+#include "slvm/exec/run.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace slvm {
+
+Operand ShaderRun::operand(const Frame& f, uint32_t word) const {
+  uint32_t index = operand_index(word);
+  Space space = operand_space(word);
+  if (space < Space::kSlot) {
+    auto s = static_cast<size_t>(space);
+    return {f.data[s] + index * f.pitch[s], f.pitch[s], f.step[s], 1};
+  }
+  if (space == Space::kSlot) {
+    const Planes& p = slots[index];
+    return {p.data + (p.step ? f.first : 0), p.pitch, p.step, std::max(p.elements, 1u)};
+  }
+  const ArrayInfo& a = program.arrays[index];
+  Operand o = operand(f, make_operand(a.space, a.index));
+  o.elements = a.elements;
+  return o;
+}
+
+const MaskWord* ShaderRun::condition(const Frame& f, uint32_t word) {
+  Operand b = operand(f, word);
+  condition_.resize(mask_words(f.lanes));
+  if (b.step) {
+    state.machine.kernels().mask_of_bools(condition_.data(), b.data, f.lanes);
+  } else {
+    bool holds = std::bit_cast<uint32_t>(b.data[0]) != 0;
+    std::fill(condition_.begin(), condition_.end(), holds ? ~MaskWord{0} : MaskWord{0});
+  }
+  return condition_.data();
+}
+
+void ShaderRun::copy_planes(const Frame& f, const MaskStack& m, std::span<const uint32_t> w, bool masked) {
+  Operand to = operand(f, w[1]), from = operand(f, w[2]);
+  size_t lanes = to.step ? f.lanes : kMaxLanes;
+  for (uint32_t i = 0; i < w[0]; ++i) {
+    float *d = to.plane(i), *s = from.plane(i);
+    if (masked && !m.all()) state.machine.kernels().blend(d, s, from.step, m.current(), f.lanes);
+    else if (from.step || !to.step) std::memcpy(d, s, lanes * sizeof(float));
+    else std::fill_n(d, lanes, *s);
+  }
+}
+
+void ShaderRun::first_active(const Frame& f, const MaskStack& m, std::span<const uint32_t> w) {
+  Operand to = operand(f, w[1]), from = operand(f, w[2]);
+  size_t lane = 0;
+  for (size_t i = m.words(); i-- > 0;)
+    if (m.current()[i]) lane = i * kMaskWordLanes + static_cast<size_t>(std::countr_zero(m.current()[i]));
+  for (uint32_t i = 0; i < w[0]; ++i) std::fill_n(to.plane(i), kMaxLanes, from.plane(i)[from.step ? lane : 0]);
+}
+
+namespace {
+
+// The element a subscript names, or -1. RSL truncates subscripts.
+int64_t element_index(float subscript, uint32_t elements) {
+  float truncated = std::trunc(subscript);
+  return truncated >= 0 && truncated < static_cast<float>(elements) ? static_cast<int64_t>(truncated) : -1;
+}
+
+std::string subscript_error(float subscript, uint32_t elements) {
+  char text[96];
+  std::snprintf(text, sizeof text, "array subscript %g is outside 0..%u", static_cast<double>(subscript), elements - 1);
+  return text;
+}
+
+} // namespace
+
+void ShaderRun::array_load(const Frame& f, const MaskStack& m, uint32_t pc, std::span<const uint32_t> w) {
+  Operand to = operand(f, w[1]), array = operand(f, w[2]), subscript = operand(f, w[3]);
+  size_t planes = w[0], lanes = to.step ? f.lanes : 1;
+  size_t bad = 0, bad_lane = 0;
+  for (size_t lane = 0; lane < lanes; ++lane) {
+    int64_t e = element_index(subscript.data[subscript.step * lane], array.elements);
+    bool active = !to.step || mask_test(m.current(), lane);
+    if (e < 0 && active && bad++ == 0) bad_lane = lane;
+    for (size_t i = 0; i < planes; ++i)
+      to.plane(i)[lane] = e < 0 ? 0 : array.plane(static_cast<size_t>(e) * planes + i)[array.step * lane];
+  }
+  if (!to.step)
+    for (size_t i = 0; i < planes; ++i) std::fill_n(to.plane(i), kMaxLanes, to.plane(i)[0]);
+  if (bad) report(pc, MessageSeverity::kError, subscript_error(subscript.data[subscript.step * bad_lane], array.elements), bad);
+}
+
+void ShaderRun::array_store(const Frame& f, const MaskStack& m, uint32_t pc, std::span<const uint32_t> w) {
+  Operand array = operand(f, w[1]), subscript = operand(f, w[2]), from = operand(f, w[3]);
+  size_t planes = w[0], lanes = array.step ? f.lanes : 1;
+  size_t bad = 0, bad_lane = 0;
+  for (size_t lane = 0; lane < lanes; ++lane) {
+    if (array.step && !mask_test(m.current(), lane)) continue;
+    int64_t e = element_index(subscript.data[subscript.step * lane], array.elements);
+    if (e < 0) {
+      if (bad++ == 0) bad_lane = lane;
+      continue;
+    }
+    for (size_t i = 0; i < planes; ++i) {
+      float* element = array.plane(static_cast<size_t>(e) * planes + i);
+      float value = from.plane(i)[from.step * lane];
+      if (array.step) element[lane] = value;
+      else std::fill_n(element, kMaxLanes, value);
+    }
+  }
+  if (bad) report(pc, MessageSeverity::kError, subscript_error(subscript.data[subscript.step * bad_lane], array.elements), bad);
+}
+
+void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<const uint32_t> words) {
+  const Instance::Bound::Import& target = bound.imports[import];
+  if (target.kernel) {
+    for (size_t i = 0; i < words.size(); ++i) operands_[i] = operand(f, words[i]);
+    KernelContext context{&state.machine.strings(), state.grid->id, static_cast<uint32_t>(f.first)};
+    target.kernel(operands_.data(), static_cast<uint32_t>(words.size()), operands_[0].step ? f.lanes : kMaxLanes, context);
+    return;
+  }
+  const ShadeopInfo& info = shadeop(program.imports[import]);
+  uint32_t level = 0;
+  decode_call(info, words, decoded_, level);
+  grid_operands_.clear();
+  for (const CallOperand& o : decoded_)
+    grid_operands_.push_back({operand(f, o.word), o.type, operand_space(o.word) == Space::kArray, o.store});
+  target.grid_op({*this, info, grid_operands_, level, pc});
+}
+
+void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, bool all) {
+  size_t strip = std::min<size_t>(state.machine.options().strip_points, pitch);
+  Frame f = grid;
+  for (size_t first = 0; first < points; first += strip) {
+    f.first = first;
+    f.lanes = std::min(strip, pitch - first);
+    f.active = std::min(f.lanes, points - first);
+    f.data[static_cast<size_t>(Space::kGrid)] = grid.data[static_cast<size_t>(Space::kGrid)] + first;
+    strip_mask_.reset_from(grid_mask, first, f.lanes, f.active);
+    if (strip_mask_.any() || all) execute_code(f, strip_mask_, body);
+  }
+}
+
+void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
+  const uint32_t* code = program.code.data();
+  for (;;) {
+    uint32_t at = pc;
+    uint16_t opcode = instruction_opcode(code[at]);
+    uint32_t count = instruction_words(code[at]);
+    const uint32_t* w = code + at + 1;
+    pc += 1 + count;
+    if (opcode >= kFirstShadeop) {
+      call(f, at, static_cast<uint16_t>(opcode - kFirstShadeop), {w, count});
+      continue;
+    }
+    switch (static_cast<Opcode>(opcode)) {
+    case Opcode::k_end:
+    case Opcode::k_endstrip: return;
+    case Opcode::k_strip:
+      run_strips(f, m, pc, w[1] != 0);
+      pc = w[0] + 1; // past the endstrip, which is one word
+      break;
+    case Opcode::k_mov: copy_planes(f, m, {w, count}, false); break;
+    case Opcode::k_movm: copy_planes(f, m, {w, count}, true); break;
+    case Opcode::k_first: first_active(f, m, {w, count}); break;
+    case Opcode::k_astart: {
+      Operand array = operand(f, w[0]);
+      const ArrayInfo& info = program.arrays[operand_index(w[0])];
+      size_t planes = array.elements * static_cast<size_t>(components(info.type));
+      for (size_t i = 0; i < planes; ++i) std::fill_n(array.plane(i), array.step ? f.lanes : kMaxLanes, 0.0f);
+      break;
+    }
+    case Opcode::k_aload: array_load(f, m, at, {w, count}); break;
+    case Opcode::k_astore: array_store(f, m, at, {w, count}); break;
+    case Opcode::k_if:
+      m.push_if(condition(f, w[0]));
+      if (!m.any()) pc = w[1];
+      break;
+    case Opcode::k_else:
+      m.flip_else();
+      if (!m.any()) pc = w[0];
+      break;
+    case Opcode::k_endif:
+      m.pop_if();
+      if (!m.any()) pc = w[0];
+      break;
+    case Opcode::k_uif:
+      if (std::bit_cast<uint32_t>(*operand(f, w[0]).data) == 0) pc = w[1] + 1 + instruction_words(code[w[1]]);
+      break;
+    case Opcode::k_uelse: pc = w[0]; break;
+    case Opcode::k_uendif:
+      if (!m.any()) pc = w[0];
+      break;
+    case Opcode::k_loop:
+    case Opcode::k_block: m.push_loop(); break;
+    case Opcode::k_endloop:
+      if (m.next_round()) pc = w[0];
+      else if (!m.any()) pc = w[1];
+      break;
+    case Opcode::k_endblock:
+      m.pop_loop();
+      if (!m.any()) pc = w[0];
+      break;
+    case Opcode::k_while:
+    case Opcode::k_uwhile:
+      m.lanes_where(condition(f, w[0]));
+      if (!m.any()) pc = w[1];
+      break;
+    case Opcode::k_break:
+      m.lanes_break(w[0]);
+      pc = w[1];
+      break;
+    case Opcode::k_continue:
+      m.lanes_continue(w[0]);
+      pc = w[1];
+      break;
+    case Opcode::k_illuminance: {
+      Operand axis = operand(f, w[4]), angle = operand(f, w[5]);
+      auto category = std::bit_cast<uint32_t>(*operand(f, w[2]).data);
+      m.push_loop();
+      light_loop.begin(*this, state.machine.strings().text(category), operand(f, w[3]), w[1] ? &axis : nullptr,
+                       w[1] ? &angle : nullptr);
+      pc = next_light(m, pc, w[0]);
+      break;
+    }
+    case Opcode::k_endilluminance:
+      // Lanes that broke out of all rounds leave nothing to light.
+      pc = next_light(m, w[0], at);
+      break;
+    case Opcode::k_illuminate: {
+      Operand axis = operand(f, w[3]), angle = operand(f, w[4]);
+      begin_illuminate(*this, operand(f, w[2]), w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
+      m.push_if(lit_.data());
+      entered_.assign(m.current(), m.current() + m.words());
+      if (!m.any()) pc = w[0];
+      break;
+    }
+    case Opcode::k_solar: {
+      Operand axis = operand(f, w[2]), angle = operand(f, w[3]);
+      begin_solar(*this, w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
+      m.push_if(lit_.data());
+      entered_.assign(m.current(), m.current() + m.words());
+      if (!m.any()) pc = w[0];
+      break;
+    }
+    case Opcode::k_endilluminate:
+    case Opcode::k_endsolar:
+      end_emission(*this, entered_);
+      m.pop_if();
+      if (!m.any()) pc = w[0];
+      break;
+    case Opcode::kCount: break;
+    }
+  }
+}
+
+// Goes to the next light that reaches a lane still in the loop, at `body`; after the last one past the endilluminance
+// at `end`, or to where that says when no lane is left.
+uint32_t ShaderRun::next_light(MaskStack& m, uint32_t body, uint32_t end) {
+  if (light_loop.next(*this, m.in_loop())) {
+    m.enter_round(light_loop.lanes());
+    return body;
+  }
+  light_loop.end();
+  m.pop_loop();
+  return m.any() ? end + 1 + instruction_words(program.code[end]) : program.code[end + 2];
+}
+
+} // namespace slvm

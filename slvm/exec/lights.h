@@ -1,0 +1,81 @@
+// Lights on a grid: what they emit, kept while the points they light stay the same, and the loops over them.
+#pragma once
+
+#include "slvm/exec/bound.h"
+#include "slvm/wide/mask.h"
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <span>
+#include <vector>
+
+namespace slvm {
+
+class ShaderRun;
+struct GridState;
+
+/// What one illuminate or solar block gave (or, for an ambient light, the whole shader), at every point.
+struct Emission {
+  PlaneMemory memory;             ///< 12 planes: L, -L, Cl, Ol
+  size_t pitch = 0;
+  std::vector<MaskWord> lit;      ///< points inside the cone
+  Planes to_light, from_light, colour, opacity;
+};
+
+/// One light's results for one set of points.
+struct LitGrid {
+  std::unique_ptr<ShaderRun> run; ///< kept for lightsource()
+  std::vector<float> position, normal; ///< the points and normals it ran for
+  const Instance* light = nullptr;
+  uint64_t light_id = 0;
+};
+
+/// The lights' results on the grid being shaded, and memory for them from grid to grid.
+class LightCache {
+public:
+  LightCache();
+  ~LightCache();
+  void clear() { used_ = 0; }
+  /// What `light` gives at `position` with `normal`: run now, unless it was for the same points.
+  LitGrid& light(GridState& state, const ShaderRun& by, const Instance& light, const Operand& position,
+                 const Operand& normal);
+
+private:
+  std::vector<std::unique_ptr<LitGrid>> grids_;
+  size_t used_ = 0;
+};
+
+/// A loop over the emissions of the lights of a category.
+class LightLoop {
+public:
+  /// Finds the lights and runs them.
+  void begin(ShaderRun& run, std::string_view category, const Operand& position, const Operand* axis,
+             const Operand* angle);
+  /// Makes the next emission that reaches lanes of `in_loop` the current one: binds L, Cl and Ol. False: none left.
+  bool next(ShaderRun& run, const MaskWord* in_loop);
+  const MaskWord* lanes() const { return lanes_.data(); }
+  /// The light of this round, for lightsource(); null outside a loop.
+  const LitGrid* current() const { return current_; }
+  void end() { current_ = nullptr; }
+
+private:
+  static bool category_matches(std::string_view wanted, std::span<const std::string> categories);
+
+  std::vector<std::pair<LitGrid*, const Emission*>> rounds_;
+  size_t at_ = 0;
+  const LitGrid* current_ = nullptr;
+  Operand axis_, angle_;
+  bool has_cone_ = false;
+  std::vector<MaskWord> lanes_;
+  std::vector<float> inside_;
+};
+
+/// The lanes of a light cone: sets L of the run (from `from` to Ps) and stores the lanes inside into `lit`.
+void begin_illuminate(ShaderRun& run, const Operand& from, const Operand* axis, const Operand* angle,
+                      std::vector<MaskWord>& lit);
+void begin_solar(ShaderRun& run, const Operand* axis, const Operand* angle, std::vector<MaskWord>& lit);
+/// Records what the block gave in the lanes that entered it.
+void end_emission(ShaderRun& run, const std::vector<MaskWord>& lit);
+
+} // namespace slvm

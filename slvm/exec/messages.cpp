@@ -1,0 +1,120 @@
+// Message passing and queries: values of other shaders' parameters, of attributes, options and the renderer.
+#include "slvm/exec/run.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace slvm {
+namespace {
+
+// Operands of all of these: result, value stored, name, value before. With an array: the array itself is both.
+struct Query {
+  explicit Query(const GridCall& call)
+      : run(call.run), found(call.operands[0].planes), out(call.operands[1]), before(call.operands[3]),
+        name(run.state.machine.strings().text(std::bit_cast<uint32_t>(*call.operands[2].planes.data))) {}
+
+  size_t planes() const {
+    return static_cast<size_t>(components(out.type)) * (out.array ? out.planes.elements : 1);
+  }
+  void result(bool yes) const { std::fill_n(found.data, kMaxLanes, yes ? 1.0f : 0.0f); }
+
+  void copy(const Operand& from) const {
+    const Operand& to = out.planes;
+    size_t lanes = to.step ? run.pitch : kMaxLanes;
+    for (size_t i = 0; i < planes(); ++i) {
+      if (from.step && to.step) std::memmove(to.plane(i), from.plane(i), lanes * sizeof(float));
+      else std::fill_n(to.plane(i), lanes, *from.plane(i));
+    }
+  }
+  /// Where nothing is found the variable keeps its value.
+  void not_found() const {
+    result(false);
+    if (!out.array && out.planes.data != before.planes.data) copy(before.planes);
+  }
+
+  ShaderRun& run;
+  Operand found;
+  GridOperand out, before;
+  std::string_view name;
+};
+
+void message(const GridCall& call, const ShaderRun* other) {
+  Query q(call);
+  const Planes* p = other ? other->parameter(q.name) : nullptr;
+  bool fits = p && p->type == q.out.type && p->elements == (q.out.array ? q.out.planes.elements : 0) &&
+              (q.out.planes.step || !p->step); // a uniform variable takes a uniform value
+  if (!fits) return q.not_found();
+  q.copy({p->data, p->pitch, p->step, std::max(p->elements, 1u)});
+  q.result(true);
+}
+
+using Source = bool (RendererServices::*)(const ShadingState&, std::string_view, Value&);
+
+void query(const GridCall& call, Source source) {
+  Query q(call);
+  Value value;
+  bool known = (q.run.state.services.*source)(q.run.shading_state(), q.name, value);
+  uint32_t elements = q.out.array ? q.out.planes.elements : 0;
+  if (known && (value.type != q.out.type || value.elements != elements)) {
+    q.run.report(call.code, MessageSeverity::kError,
+                 fmt::format("{} \"{}\" is a {}, not a {}", call.info.name, q.name, describe(value.type, value.elements),
+                             describe(q.out.type, elements)),
+                 q.run.points);
+    known = false;
+  }
+  if (!known) return q.not_found();
+  for (const std::string& s : value.strings)
+    value.numbers.push_back(std::bit_cast<float>(q.run.state.machine.strings().intern(s)));
+  size_t lanes = q.out.planes.step ? q.run.pitch : kMaxLanes;
+  for (size_t i = 0; i < q.planes() && i < value.numbers.size(); ++i)
+    std::fill_n(q.out.planes.plane(i), lanes, value.numbers[i]);
+  q.result(true);
+}
+
+} // namespace
+
+std::string describe(Type type, uint32_t elements) {
+  return elements ? fmt::format("{}[{}]", type_name(type), elements) : std::string(type_name(type));
+}
+
+namespace grid_ops {
+
+// In a light these mean the shaders of the surface being lit.
+void surface_message(const GridCall& call) {
+  const GridState& state = call.run.state;
+  message(call, call.run.outer ? call.run.outer : state.surface);
+}
+void displacement_message(const GridCall& call) { message(call, call.run.state.displacement); }
+void atmosphere_message(const GridCall& call) { message(call, call.run.state.atmosphere); }
+// Volumes inside and outside are entered by rays, which this renderer interface does not have yet: nothing is found,
+// as at a surface without interior or exterior shader.
+void incident_message(const GridCall& call) { message(call, nullptr); }
+void opposite_message(const GridCall& call) { message(call, nullptr); }
+void lightsource_message(const GridCall& call) {
+  const LitGrid* light = call.run.light_loop.current();
+  message(call, light ? light->run.get() : nullptr);
+}
+
+void attribute_query(const GridCall& call) { query(call, &RendererServices::attribute); }
+void option_query(const GridCall& call) { query(call, &RendererServices::option); }
+void renderer_query(const GridCall& call) { query(call, &RendererServices::renderer_info); }
+
+void shader_name(const GridCall& call) {
+  const ShaderSet& set = *call.run.state.shaders;
+  const Instance* shader = &call.run.instance;
+  StringPool& strings = call.run.state.machine.strings();
+  if (call.operands.size() > 1) {
+    std::string_view kind = strings.text(std::bit_cast<uint32_t>(*call.operands[1].planes.data));
+    shader = kind == "surface" ? set.surface : kind == "displacement" ? set.displacement
+           : kind == "atmosphere" ? set.atmosphere : kind == "interior" ? set.interior
+           : kind == "exterior" ? set.exterior
+           : kind == "lightsource" && call.run.light_loop.current() ? call.run.light_loop.current()->light : nullptr;
+  }
+  uint32_t id = strings.intern(shader ? shader->shader().name() : "");
+  std::fill_n(call.operands[0].planes.data, kMaxLanes, std::bit_cast<float>(id));
+}
+
+} // namespace grid_ops
+} // namespace slvm

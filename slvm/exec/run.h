@@ -1,0 +1,108 @@
+// One shader instance running on one grid: its registers, its external variables, its masks. Lights run inside the
+// run of the surface they light, each as a run of its own. Read next: interpreter.cpp.
+#pragma once
+
+#include "slvm/exec/bound.h"
+#include "slvm/exec/lights.h"
+#include "slvm/exec/mask_stack.h"
+#include "slvm/kernels/table.h"
+#include "slvm/machine.h"
+
+namespace slvm {
+
+/// What the runs of one context share, and the grid they are on.
+struct GridState {
+  const Machine& machine;
+  RendererServices& services;
+  LightCache& lights;
+  Grid* grid = nullptr;
+  const ShaderSet* shaders = nullptr;
+  /// Runs of this grid's shaders so far, for message passing. Null: not run (yet).
+  const ShaderRun* displacement = nullptr;
+  const ShaderRun* surface = nullptr;
+  const ShaderRun* atmosphere = nullptr;
+};
+
+/// Where operands are, for the lanes being run: a strip, or the whole grid.
+struct Frame {
+  float* data[4];   ///< constants, uniform, strip and grid registers (of the first lane)
+  size_t pitch[4];
+  uint32_t step[4];
+  size_t first = 0; ///< grid index of the first lane
+  size_t lanes = 0; ///< a multiple of kMaxLanes
+  size_t active = 0; ///< lanes that are points; the rest is padding
+};
+
+class ShaderRun {
+public:
+  /// `outer`: the run whose light loop this light runs for, or null.
+  ShaderRun(GridState& state, const Instance& instance, const ShaderRun* outer = nullptr);
+
+  /// Takes memory for the grid of `state` and binds external variables; may be called again for the next grid.
+  /// `position` and `normal`: Ps and Ns of lights.
+  void prepare(const Operand* position = nullptr, const Operand* normal = nullptr);
+  /// Computes defaults of parameters, then runs the shader.
+  void execute();
+
+  GridState& state;
+  const Instance& instance;
+  const ShaderRun* outer;
+  const Program& program;
+  const Instance::Bound& bound;
+  size_t points = 0, pitch = 0;
+
+  std::vector<Planes> slots; ///< by slot of the program
+  MaskStack mask;            ///< of the whole grid
+  LightLoop light_loop;      ///< the light loop being run (surfaces)
+  std::vector<Emission> emissions; ///< what illuminate and solar gave so far (lights): the first emission_count
+  size_t emission_count = 0;
+
+  Operand operand(const Frame& frame, uint32_t word) const;
+  const Frame& grid_frame() const { return frame_; }
+  Planes* slot(Global g) {
+    int32_t i = bound.slot_of[static_cast<size_t>(g)];
+    return i < 0 ? nullptr : &slots[static_cast<size_t>(i)];
+  }
+  /// The planes of parameter `name`, or null.
+  const Planes* parameter(std::string_view name) const;
+
+  /// A run-time message at a word of code, for `count` points.
+  void report(uint32_t code, MessageSeverity severity, std::string text, size_t count) const;
+  ShadingState shading_state() const { return {*state.grid, *state.shaders, instance}; }
+
+private:
+  void bind_registers();
+  Planes bind_parameter(size_t slot);
+  Planes bind_variable(Global g, bool stored, const Operand* position, const Operand* normal);
+  Planes default_variable(Global g);
+  Planes lattice(Global g);
+  Planes take_uniform(Type type, std::initializer_list<float> value);
+  Planes take_copy(const Slot& slot, const Planes& from);
+  float* take(size_t floats);
+
+  // The interpreter proper (interpreter.cpp).
+  void execute_code(Frame& frame, MaskStack& mask, uint32_t pc);
+  void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, bool all);
+  void call(const Frame& frame, uint32_t pc, uint16_t import, std::span<const uint32_t> words);
+  void copy_planes(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words, bool masked);
+  void first_active(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words);
+  void array_load(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
+  void array_store(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
+  const MaskWord* condition(const Frame& frame, uint32_t word);
+  uint32_t next_light(MaskStack& mask, uint32_t body, uint32_t end);
+
+  Frame frame_{};
+  PlaneMemory memory_;
+  std::vector<PlaneMemory> extra_; ///< variables with no place in the register memory
+  size_t extra_used_ = 0;
+  std::vector<Operand> operands_;
+  std::vector<CallOperand> decoded_;
+  std::vector<GridOperand> grid_operands_;
+  std::vector<MaskWord> condition_, lit_, entered_;
+  MaskStack strip_mask_;
+};
+
+/// "float", "color[3]"...
+std::string describe(Type type, uint32_t elements);
+
+} // namespace slvm

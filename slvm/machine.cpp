@@ -1,0 +1,169 @@
+// Loading, binding, and the table of run-time messages.
+#include "slvm/machine.h"
+
+#include "slvm/evaluator.h"
+#include "slvm/exec/bind.h"
+#include "slvm/exec/bound.h"
+#include "slvm/format/decode.h"
+#include "slvm/format/slo.h"
+#include "slvm/kernels/table.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <fmt/format.h>
+
+namespace slvm {
+
+Instance::Instance() = default;
+Instance::~Instance() = default;
+
+Machine::Machine(MachineOptions options) : options_(std::move(options)) {
+  options_.strip_points = std::max<uint32_t>((options_.strip_points + kMaxLanes - 1) / kMaxLanes * kMaxLanes, kMaxLanes);
+  kernels_ = options_.target.empty() ? nullptr : find_kernel_table(options_.target);
+  if (!kernels_) kernels_ = &kernel_table();
+  evaluator_ = make_kernel_evaluator(options_.target);
+  if (!evaluator_) evaluator_ = make_kernel_evaluator();
+}
+
+Machine::~Machine() = default;
+
+Result<std::shared_ptr<const Shader>> Machine::load(std::span<const std::byte> slo) const {
+  Result<Program> program = read_slo(slo);
+  if (!program) return Error{program.error()};
+  auto shader = std::make_shared<Shader>();
+  shader->program_ = std::move(*program);
+  return std::shared_ptr<const Shader>(shader);
+}
+
+Result<std::shared_ptr<const Shader>> Machine::load_file(const std::string& path) const {
+  Result<std::vector<std::byte>> bytes = read_file(path);
+  if (!bytes) return Error{bytes.error()};
+  auto shader = load(*bytes);
+  return shader ? shader : Result<std::shared_ptr<const Shader>>(Error{fmt::format("{}: {}", path, shader.error())});
+}
+
+namespace {
+
+// One plane of kMaxLanes equal floats for each number.
+void splat(float* planes, std::span<const float> numbers) {
+  for (size_t i = 0; i < numbers.size(); ++i) std::fill_n(planes + i * kMaxLanes, kMaxLanes, numbers[i]);
+}
+
+void bind_constants(Instance::Bound& bound, const Program& program, StringPool& strings) {
+  std::vector<float> numbers = program.constants;
+  for (auto [plane, text] : program.string_constants) numbers[plane] = std::bit_cast<float>(strings.intern(program.strings[text]));
+  splat(bound.constants.reserve(std::max<size_t>(numbers.size(), 1) * kMaxLanes), numbers);
+}
+
+void bind_params(Instance::Bound& bound, const Program& program, const BoundValues& values, StringPool& strings) {
+  size_t planes = 0;
+  for (const auto& v : values)
+    if (v) planes += v->numbers.size() + v->strings.size();
+  float* next = bound.params.reserve(std::max<size_t>(planes, 1) * kMaxLanes);
+  bound.param_planes.assign(program.slots.size(), {});
+  for (size_t i = 0; i < program.params.size(); ++i) {
+    const Param& p = program.params[i];
+    if (!values[i]) {
+      if (p.init >= 0) bound.init_sections.push_back(p.init);
+      continue;
+    }
+    std::vector<float> numbers = values[i]->numbers;
+    for (const std::string& s : values[i]->strings) numbers.push_back(std::bit_cast<float>(strings.intern(s)));
+    splat(next, numbers);
+    if (p.slot >= 0) bound.param_planes[static_cast<size_t>(p.slot)] = {next, kMaxLanes, 0, p.type, p.elements};
+    next += numbers.size() * kMaxLanes;
+  }
+}
+
+void bind_variables(Instance::Bound& bound, const Program& program) {
+  std::fill(std::begin(bound.slot_of), std::end(bound.slot_of), -1);
+  for (size_t i = 0; i < program.slots.size(); ++i) {
+    Global g = program.slots[i].parameter ? Global::kCount : find_global(program.slots[i].name);
+    bound.globals.push_back(g);
+    if (g != Global::kCount) bound.slot_of[static_cast<size_t>(g)] = static_cast<int32_t>(i);
+  }
+}
+
+// Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot serve.
+std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels) {
+  std::vector<bool> called(program.imports.size());
+  for (uint32_t at = 0; at < program.code.size(); at += 1 + instruction_words(program.code[at])) {
+    uint16_t opcode = instruction_opcode(program.code[at]);
+    if (opcode >= kFirstShadeop) {
+      called[opcode - kFirstShadeop] = true;
+      bound.most_operands = std::max<size_t>(bound.most_operands, instruction_words(program.code[at]));
+    }
+    auto op = static_cast<Opcode>(opcode);
+    bound.emits |= op == Opcode::k_illuminate || op == Opcode::k_solar;
+  }
+  for (size_t i = 0; i < program.imports.size(); ++i) {
+    ShadeopId id = program.imports[i];
+    const ShadeopInfo& info = shadeop(id);
+    bound.imports.push_back({kernels[id], grid_op(id)});
+    bound.reads_messages |= info.name == "surface" || info.name == "displacement" || info.name == "atmosphere";
+    if (called[i] && info.kind == ShadeopKind::kPending)
+      return fmt::format("{} \"{}\" calls '{}', which this build cannot serve", shader_kind_name(program.kind), program.name,
+                         info.name);
+  }
+  return {};
+}
+
+std::vector<std::string> split_categories(const std::string& list) {
+  std::vector<std::string> out;
+  for (size_t at = 0; at < list.size();) {
+    size_t end = std::min(list.find(',', at), list.size());
+    size_t first = list.find_first_not_of(" \t", at), last = list.find_last_not_of(" \t", end - 1);
+    if (first < end && last != list.npos && last >= first) out.push_back(list.substr(first, last + 1 - first));
+    at = end + 1;
+  }
+  return out;
+}
+
+} // namespace
+
+Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader, std::span<const ParamValue> given,
+                                                       const InstanceOptions& options) const {
+  std::unique_ptr<Instance> instance(new Instance);
+  instance->id_ = ++instances_;
+  instance->shader_ = std::move(shader);
+  instance->shader_to_current_ = options.shader_to_current;
+  Result<BoundValues> values = bind_values(instance->shader_->program(), given, options.shader_to_current);
+  if (!values) return Error{values.error()};
+  if (options_.specialise)
+    instance->specialised_ = specialise(instance->shader_->program(), *values, options.may_vary, *evaluator_);
+  const Program& program = instance->program();
+  for (size_t i = 0; i < program.params.size(); ++i)
+    if (program.params[i].name == "__category" && (*values)[i] && !(*values)[i]->strings.empty())
+      instance->categories_ = split_categories((*values)[i]->strings[0]);
+  instance->bound_ = std::make_unique<Instance::Bound>();
+  Instance::Bound& bound = *instance->bound_;
+  if (std::string error = bind_code(bound, program, *kernels_); !error.empty()) return Error{error};
+  bind_constants(bound, program, strings_);
+  bind_params(bound, program, *values, strings_);
+  bind_variables(bound, program);
+  return instance;
+}
+
+void Machine::report(const RuntimeMessage& message) const {
+  std::lock_guard lock(messages_mutex_);
+  for (RuntimeMessage& known : messages_)
+    if (known.line == message.line && known.file == message.file && known.shader == message.shader && known.severity == message.severity &&
+        known.text == message.text) {
+      known.points += message.points;
+      known.total += message.total;
+      return;
+    }
+  if (messages_.size() < kMaxMessages) messages_.push_back(message);
+}
+
+std::vector<RuntimeMessage> Machine::messages() const {
+  std::lock_guard lock(messages_mutex_);
+  std::vector<RuntimeMessage> out = messages_;
+  std::sort(out.begin(), out.end(), [](const RuntimeMessage& a, const RuntimeMessage& b) {
+    return std::tie(a.file, a.line, a.shader, a.text) < std::tie(b.file, b.line, b.shader, b.text);
+  });
+  return out;
+}
+
+} // namespace slvm
