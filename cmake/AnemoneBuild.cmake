@@ -10,6 +10,9 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
+# Build types beside CMake's own: optimised with assertions, and for sanitizers.
+set(CMAKE_CXX_FLAGS_RELASSERT "-O2 -g1")
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 
 find_program(ANEMONE_CCACHE ccache)

@@ -1,5 +1,5 @@
-// Bytes from modules and back. The format is written down once: transfer() visits all parts of a module, with an
-// archive that either writes what it is shown (Writer) or fills it in (Reader).
+// Bytes from modules and back. The format is written down once: transfer() visits all parts of a module, with
+// an archive that either writes what it is shown (Writer) or fills it in (Reader).
 #include "slvm/ir/serialise.h"
 
 #include "slvm/ir/passes/passes.h"
@@ -22,21 +22,23 @@ public:
   static constexpr bool kReads = false;
 
   void number(uint64_t x) {
-    for (; x >= 0x80; x >>= 7) bytes_.push_back(static_cast<uint8_t>(x | 0x80));
+    for (; x >= 0x80; x >>= 7)
+      bytes_.push_back(static_cast<uint8_t>(x | 0x80));
     bytes_.push_back(static_cast<uint8_t>(x));
   }
   void real(float x) {
     auto bits = std::bit_cast<uint32_t>(x);
-    for (int i = 0; i < 4; ++i) bytes_.push_back(static_cast<uint8_t>(bits >> (8 * i)));
+    for (int i = 0; i < 4; ++i)
+      bytes_.push_back(static_cast<uint8_t>(bits >> (8 * i)));
   }
   void text(const std::string& s) {
     number(s.size());
     bytes_.insert(bytes_.end(), s.begin(), s.end());
   }
-  template <class T, class F>
-  void list(std::vector<T>& items, F&& item) {
+  template <class T, class F> void list(std::vector<T>& items, F&& item) {
     number(items.size());
-    for (T& x : items) item(x);
+    for (T& x : items)
+      item(x);
   }
   bool failed() const { return false; }
   std::vector<uint8_t> take() { return std::move(bytes_); }
@@ -51,8 +53,7 @@ public:
   static constexpr bool kReads = true;
   explicit Reader(std::span<const uint8_t> bytes) : bytes_(bytes) {}
 
-  template <class T>
-  void number(T& x) {
+  template <class T> void number(T& x) {
     uint64_t value = 0;
     for (int shift = 0;; shift += 7) {
       if (bytes_.empty() || shift > 63) {
@@ -70,7 +71,8 @@ public:
   void real(float& x) {
     if (bytes_.size() < 4) return fail("ends in the middle");
     uint32_t bits = 0;
-    for (int i = 0; i < 4; ++i) bits |= static_cast<uint32_t>(bytes_[static_cast<size_t>(i)]) << (8 * i);
+    for (int i = 0; i < 4; ++i)
+      bits |= static_cast<uint32_t>(bytes_[static_cast<size_t>(i)]) << (8 * i);
     x = std::bit_cast<float>(bits);
     bytes_ = bytes_.subspan(4);
   }
@@ -79,8 +81,7 @@ public:
     s.assign(reinterpret_cast<const char*>(bytes_.data()), size);
     bytes_ = bytes_.subspan(size);
   }
-  template <class T, class F>
-  void list(std::vector<T>& items, F&& item) {
+  template <class T, class F> void list(std::vector<T>& items, F&& item) {
     size_t size = count();
     for (size_t i = 0; i < size && !failed(); ++i) {
       T x{};
@@ -111,8 +112,7 @@ private:
 
 // ---- The format.
 
-template <class A>
-class Format {
+template <class A> class Format {
 public:
   Format(A& a, Module& m) : a_(a), m_(m) {}
 
@@ -139,8 +139,7 @@ private:
     a_.number(x);
     if constexpr (A::kReads) b = x != 0;
   }
-  template <class E>
-  void enumeration(E& e, int count) {
+  template <class E> void enumeration(E& e, int count) {
     auto x = static_cast<uint8_t>(e);
     a_.number(x);
     if constexpr (A::kReads) {
@@ -210,7 +209,8 @@ private:
       if constexpr (A::kReads) {
         int found = find_shadeop(name, signature);
         if (found < 0 && !a_.failed())
-          a_.fail(fmt::format("the built-in '{}' with signature '{}' is not in this version", name, signature));
+          a_.fail(
+              fmt::format("the built-in '{}' with signature '{}' is not in this version", name, signature));
         id = static_cast<uint32_t>(std::max(found, 0));
       }
     });
@@ -242,7 +242,8 @@ private:
   void subject(Inst& inst) {
     uint32_t x = inst.index;
     if constexpr (!A::kReads)
-      if (inst.op == Op::kCall) x = static_cast<uint32_t>(std::find(imports_.begin(), imports_.end(), x) - imports_.begin());
+      if (inst.op == Op::kCall)
+        x = static_cast<uint32_t>(std::find(imports_.begin(), imports_.end(), x) - imports_.begin());
     a_.number(x);
     if constexpr (A::kReads) {
       if (inst.op == Op::kCall && x >= imports_.size()) return a_.fail("a call of no import");
@@ -306,21 +307,26 @@ public:
     to_.constants = from_.constants;
     to_.files = from_.files;
     to_.body = region(from_.body);
-    for (const Region& r : from_.inits) to_.inits.push_back(region(r));
+    for (const Region& r : from_.inits)
+      to_.inits.push_back(region(r));
     return std::move(to_);
   }
 
 private:
   Region region(const Region& r) {
     Region out;
-    for (ValueId v : r.params) out.params.push_back(define(v));
+    for (ValueId v : r.params)
+      out.params.push_back(define(v));
     for (InstId id : r.body) {
       out.body.push_back(static_cast<InstId>(to_.insts.size()));
       to_.insts.emplace_back();
       Inst inst = from_.insts[id];
-      for (ValueId& v : inst.args) v = value_[v];
-      for (ValueId& v : inst.results) v = define(v);
-      for (Region& nested : inst.regions) nested = region(nested);
+      for (ValueId& v : inst.args)
+        v = value_[v];
+      for (ValueId& v : inst.results)
+        v = define(v);
+      for (Region& nested : inst.regions)
+        nested = region(nested);
       to_.insts[out.body.back()] = std::move(inst);
     }
     return out;

@@ -14,8 +14,12 @@ struct Failure {
 };
 
 /// Types with the same planes stand for each other: a retype costs nothing and may be left out.
-bool same_planes(Type a, Type b) { return a == b || (is_triple(a) && is_triple(b)); }
-bool is_storable(Type t) { return t != Type::kVoid && t != Type::kBool; }
+bool same_planes(Type a, Type b) {
+  return a == b || (is_triple(a) && is_triple(b));
+}
+bool is_storable(Type t) {
+  return t != Type::kVoid && t != Type::kBool;
+}
 
 // ---- Slots, parameters, arrays, constants.
 
@@ -25,8 +29,10 @@ public:
 
   void run() const {
     if (m_.insts.size() > kMaxInstructions) throw Failure{"more instructions than allowed"};
-    for (const Slot& s : m_.slots) check_slot(s);
-    for (const Param& p : m_.params) check_param(p);
+    for (const Slot& s : m_.slots)
+      check_slot(s);
+    for (const Param& p : m_.params)
+      check_param(p);
     check_inits();
     uint64_t planes = 0;
     for (const Array& a : m_.arrays) {
@@ -36,7 +42,8 @@ public:
     if (planes > kMaxUniformPlanes) throw Failure{"arrays take more memory than allowed"};
     for (const Constant& c : m_.constants) {
       auto numbers = static_cast<size_t>(c.type == Type::kString ? 0 : components(c.type));
-      if (c.type == Type::kVoid || c.numbers.size() != numbers) throw Failure{"a constant does not fit its type"};
+      if (c.type == Type::kVoid || c.numbers.size() != numbers)
+        throw Failure{"a constant does not fit its type"};
     }
   }
 
@@ -58,7 +65,8 @@ private:
     const Slot& s = m_.slots[static_cast<size_t>(p.slot)];
     if (!s.parameter || s.type != p.type || s.elements != p.elements || s.varying != p.varying)
       throw Failure{fmt::format("parameter '{}' does not agree with its variable", p.name)};
-    bool has_array = std::any_of(m_.arrays.begin(), m_.arrays.end(), [&](const Array& a) { return a.slot == p.slot; });
+    bool has_array =
+        std::any_of(m_.arrays.begin(), m_.arrays.end(), [&](const Array& a) { return a.slot == p.slot; });
     if (p.init >= 0 && p.elements && !has_array)
       throw Failure{fmt::format("parameter '{}' has a default but no array", p.name)};
   }
@@ -67,7 +75,8 @@ private:
     std::vector<bool> used(m_.inits.size());
     for (const Param& p : m_.params) {
       if (p.init < 0) continue;
-      if (used[static_cast<size_t>(p.init)]) throw Failure{fmt::format("parameter '{}' shares its default", p.name)};
+      if (used[static_cast<size_t>(p.init)])
+        throw Failure{fmt::format("parameter '{}' shares its default", p.name)};
       used[static_cast<size_t>(p.init)] = true;
     }
   }
@@ -102,7 +111,9 @@ public:
   }
 
 private:
-  [[noreturn]] void fail(std::string_view what) const { throw Failure{fmt::format("instruction {}: {}", at_, what)}; }
+  [[noreturn]] void fail(std::string_view what) const {
+    throw Failure{fmt::format("instruction {}: {}", at_, what)};
+  }
   void require(bool ok, std::string_view what) const {
     if (!ok) fail(what);
   }
@@ -119,7 +130,8 @@ private:
     require(owners_.size() <= kMaxNesting, "regions nested too deeply");
     size_t first = scope_.size();
     owners_.push_back(owner);
-    for (ValueId v : r.params) define(v);
+    for (ValueId v : r.params)
+      define(v);
     require(!r.body.empty(), "an empty region");
     for (size_t i = 0; i < r.body.size(); ++i) {
       at_ = r.body[i];
@@ -127,18 +139,21 @@ private:
       placed_[at_] = true;
       const Inst& inst = m_.insts[at_];
       bool last = i + 1 == r.body.size();
-      require(is_terminator(inst.op) == last, "a region that does not end in a terminator, or goes on after it");
+      require(is_terminator(inst.op) == last,
+              "a region that does not end in a terminator, or goes on after it");
       instruction(inst);
     }
     owners_.pop_back();
-    for (; scope_.size() > first; scope_.pop_back()) visible_[scope_.back()] = false;
+    for (; scope_.size() > first; scope_.pop_back())
+      visible_[scope_.back()] = false;
   }
 
   void define(ValueId v) {
     require(v < m_.values.size() && !defined_[v], "a value that is defined nowhere or twice");
     const ValueInfo& info = m_.values[v];
     require(info.type != Type::kVoid, "a value without type");
-    require(info.array >= -1 && info.array < static_cast<int32_t>(m_.arrays.size()), "an array out of bounds");
+    require(info.array >= -1 && info.array < static_cast<int32_t>(m_.arrays.size()),
+            "an array out of bounds");
     defined_[v] = visible_[v] = true;
     scope_.push_back(v);
   }
@@ -155,7 +170,8 @@ private:
     at_ = id; // nested regions moved it
     for (ValueId v : inst.results) {
       define(v);
-      require(m_.values[v].array < 0 || inst.op == Op::kArray || inst.op == Op::kCall, "an array where a value must be");
+      require(m_.values[v].array < 0 || inst.op == Op::kArray || inst.op == Op::kCall,
+              "an array where a value must be");
       // The array a call stores to is named by its kArray: the result is not a value to go on with.
       if (inst.op == Op::kCall && m_.values[v].array >= 0) visible_[v] = false;
     }
@@ -259,7 +275,8 @@ private:
       const SignatureParam& p = s.param(i);
       if (!p.output) continue;
       if (result == inst.results.size() || !fits(inst.results[result], p)) does_not_fit();
-      if (is_array(inst.results[result])) require_writable(static_cast<uint32_t>(m_.values[inst.results[result]].array));
+      if (is_array(inst.results[result]))
+        require_writable(static_cast<uint32_t>(m_.values[inst.results[result]].array));
       ++result;
     }
     for (int i = 0; i < s.param_count; ++i) {
@@ -270,7 +287,8 @@ private:
       } while (p.variadic && arg < inst.args.size());
     }
     while (!s.token_set.empty() && arg + 1 < inst.args.size()) {
-      if (m_.type(inst.args[arg]) != Type::kString || is_array(inst.args[arg]) || is_array(inst.args[arg + 1]))
+      if (m_.type(inst.args[arg]) != Type::kString || is_array(inst.args[arg]) ||
+          is_array(inst.args[arg + 1]))
         does_not_fit();
       arg += 2;
     }
@@ -304,8 +322,10 @@ private:
     require(inst.args.size() >= fixed, "wrong number of arguments, results or regions");
     same_types(std::span(inst.args).subspan(fixed), inst.results);
     same_types(inst.results, body.params);
-    for (ValueId v : inst.results) require(m_.values[v].array < 0, "an array where a value must be");
-    for (ValueId v : body.params) require(m_.values[v].array < 0, "an array where a value must be");
+    for (ValueId v : inst.results)
+      require(m_.values[v].array < 0, "an array where a value must be");
+    for (ValueId v : body.params)
+      require(m_.values[v].array < 0, "an array where a value must be");
     region(body, &inst);
   }
 
@@ -318,15 +338,18 @@ private:
 
   void check_lights(const Inst& inst) {
     bool loop = inst.op == Op::kIlluminance;
-    require(is_body_ && loop != (m_.kind == ShaderKind::kLight), "a light statement in the wrong kind of shader");
+    require(is_body_ && loop != (m_.kind == ShaderKind::kLight),
+            "a light statement in the wrong kind of shader");
     for (const Inst* owner : owners_)
       require(!owner || !fixed_args(owner->op), "light statements do not nest");
     static constexpr Type kFixed[3][4] = {{Type::kString, Type::kPoint, Type::kVector, Type::kFloat},
                                           {Type::kPoint, Type::kVector, Type::kFloat},
                                           {Type::kVector, Type::kFloat}};
     uint32_t fixed = fixed_args(inst.op);
-    require(inst.args.size() >= fixed && inst.regions.size() == 1, "wrong number of arguments, results or regions");
-    for (uint32_t i = 0; i < fixed; ++i) value_is(inst.args[i], kFixed[4 - fixed][i]);
+    require(inst.args.size() >= fixed && inst.regions.size() == 1,
+            "wrong number of arguments, results or regions");
+    for (uint32_t i = 0; i < fixed; ++i)
+      value_is(inst.args[i], kFixed[4 - fixed][i]);
     require(inst.index <= 1, "an index out of bounds");
     if (loop) return carried(inst);
     same_types(std::span(inst.args).subspan(fixed), inst.results);
@@ -344,7 +367,8 @@ private:
     if (is_body_) require(inst.args.empty(), "the shader's body yields values");
     if (!param_) return;
     require(inst.args.size() == std::max(param_->elements, 1u), "a default with another number of elements");
-    for (ValueId v : inst.args) value_is(v, param_->type);
+    for (ValueId v : inst.args)
+      value_is(v, param_->type);
   }
 
   void check_exit(const Inst& inst) const {

@@ -1,6 +1,6 @@
-// Is a module sound? What the passes and emit() take for granted, checked: after verify_module() they may run on a
-// module from anywhere. Detail is not checked here, passes infer it; verify_program() judges the code that emit()
-// makes from it.
+// Is a module sound? What the passes and emit() take for granted, checked: after verify_module() they may run
+// on a module from anywhere. Detail is not checked here, passes infer it; verify_program() judges the code
+// that emit() makes from it.
 #pragma once
 
 #include "slvm/ir/ir.h"
