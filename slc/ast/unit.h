@@ -65,8 +65,15 @@ struct Shader {
   std::vector<Annotation> annotations;
 };
 
+/// A function or shader of the file itself, not nested: one of the two is set.
+struct Definition {
+  FunctionDef* function = nullptr;
+  Shader* shader = nullptr;
+};
+
 /// All that one source file and its includes define. Owns every node.
 struct TranslationUnit {
+  std::vector<Definition> definitions; ///< in source order
   std::deque<Variable> variables;
   std::deque<FunctionDef> functions; ///< in source order, nested ones included
   std::deque<Shader> shaders;        ///< in source order

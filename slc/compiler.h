@@ -1,0 +1,49 @@
+// The compiler as a library: source text in, checked shaders out. PUBLIC.
+//
+//   slvm::SourceManager sources;
+//   slvm::Diagnostics diags;
+//   slc::Compiler compiler;
+//   slc::CheckedSource checked = compiler.check(sources.add("plastic.sl", text), {}, sources, diags);
+//   if (diags.has_errors()) std::fputs(slvm::format_diagnostics(diags, sources).c_str(), stderr);
+#pragma once
+
+#include "slc/ast/unit.h"
+#include "slc/preprocess/preprocess.h"
+#include "slvm/support/diagnostics.h"
+
+namespace slc {
+
+class BuiltinLibrary;
+
+struct CompileOptions {
+  /// Include folders, macros, and how files are read.
+  PreprocessOptions preprocess;
+  /// Folder of the headers that come with Anemone, searched last; "" for none.
+  std::string standard_include;
+};
+
+/// A source file after all checks. Without errors in the diagnostics, what ast/*.h promises holds for `unit`.
+struct CheckedSource {
+  PreprocessedText text;
+  TranslationUnit unit;
+};
+
+/// Holds what all compilations share: the RSL bodies of built-in functions. One compiler serves any number of threads;
+/// sources and diagnostics belong to one compilation each.
+class Compiler {
+public:
+  Compiler();
+
+  /// Preprocesses, parses and checks file `main` of `sources`. Included files are added to `sources`.
+  CheckedSource check(slvm::FileId main, const CompileOptions&, slvm::SourceManager& sources,
+                      slvm::Diagnostics& diags) const;
+  /// Only the first step.
+  PreprocessedText preprocess(slvm::FileId main, const CompileOptions&, slvm::SourceManager& sources,
+                              slvm::Diagnostics& diags) const;
+
+private:
+  std::shared_ptr<const BuiltinLibrary> builtins_;
+  std::string builtins_error_; // our own bug, reported with every compilation; "" if none
+};
+
+} // namespace slc

@@ -1,0 +1,101 @@
+// Calls: functions are inlined, built-ins become call instructions.
+#include "slc/lower/lowering.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace slc {
+
+slvm::ir::ValueId Lowering::call(const CallExpr& e) {
+  return e.function ? inline_function(e) : builtin_call(e);
+}
+
+// Formals are variables of their own: output ones are copied back afterwards, which no RSL program can tell from
+// passing by reference unless it passes one variable twice.
+slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
+  const FunctionDef& f = *e.function;
+  size_t declared_from = declared_.size();
+  std::vector<Place> places(f.formals.size());
+  std::vector<ValueId> actuals(f.formals.size(), ir::kNoValue);
+  for (size_t i = 0; i < f.formals.size(); ++i) {
+    const Variable& formal = *f.formals[i];
+    const Expr& actual = *e.args[i];
+    if (formal.array_length != kNotArray) {
+      arrays_[&formal] = array_of(*static_cast<const VariableExpr&>(actual).variable);
+    } else if (formal.output) {
+      places[i] = place(actual);
+      actuals[i] = load(places[i]);
+    } else {
+      actuals[i] = value(actual);
+    }
+  }
+  for (size_t i = 0; i < f.formals.size(); ++i) {
+    if (f.formals[i]->array_length != kNotArray) continue;
+    declared_.push_back(index_of(*f.formals[i]));
+    write(*f.formals[i], actuals[i]);
+  }
+  size_t result = f.result == Type::kVoid ? 0 : new_index(f.result);
+  if (result) {
+    declared_.push_back(result);
+    values_[result] = zero(f.result);
+  }
+  function_body(*f.body, result);
+  values_.resize(variable_types_.size(), ir::kNoValue);
+  ValueId out = result ? values_[result] : ir::kNoValue;
+  std::vector<ValueId> stored(f.formals.size(), ir::kNoValue);
+  for (size_t i = 0; i < f.formals.size(); ++i)
+    if (places[i].variable) stored[i] = read(*f.formals[i]);
+  forget(declared_from);
+  for (size_t i = 0; i < f.formals.size(); ++i)
+    if (places[i].variable) store(places[i], stored[i]);
+  return out;
+}
+
+// random() has no arguments: its values come from a counter, so that they depend on nothing but place and program.
+slvm::ir::ValueId Lowering::random_call(const CallExpr& e, const slvm::ShadeopInfo& info) {
+  ValueId count = values_[random_counter_];
+  values_[random_counter_] = b_.call("operator+", "float(float a, float b)", {count, b_.number(1)});
+  bool uniform = uniform_wanted_ || info.name == "randomgrid";
+  for (ShadeopId id : slvm::shadeop_overloads(uniform ? "randomuniform" : "randomvarying"))
+    if (slvm::shadeop(id).signature.result == e.type) return call_row(id, {count});
+  assert(false && "every type random() gives has its rows");
+  return zero(e.type);
+}
+
+slvm::ir::ValueId Lowering::builtin_call(const CallExpr& e) {
+  const slvm::ShadeopInfo& info = slvm::shadeop(e.shadeop);
+  if (info.name == "random" || info.name == "randomgrid") return random_call(e, info);
+  if (info.flags & slvm::kLights) store_changed(true);
+  const slvm::Signature& signature = info.signature;
+  std::vector<Place> places;
+  Values args;
+  std::vector<Type> result_types;
+  if (signature.result != Type::kVoid) result_types.push_back(signature.result);
+  for (size_t i = 0; i < e.args.size(); ++i) {
+    const slvm::SignatureParam& param = signature.param(static_cast<int>(i));
+    if (!param.output) {
+      args.push_back(value(*e.args[i]));
+      continue;
+    }
+    places.push_back(place(*e.args[i]));
+    result_types.push_back(e.args[i]->type);
+    if (param.input) args.push_back(load(places.back()));
+  }
+  for (const TokenArg& t : e.tokens) {
+    args.push_back(value(*t.token));
+    args.push_back(value(*t.value));
+  }
+  std::vector<ValueId> results = b_.call(e.shadeop, args, result_types);
+  size_t next = signature.result != Type::kVoid;
+  for (const Place& p : places) {
+    if (p.whole_array) {
+      uint32_t array = array_of(*p.variable);
+      m_.values[results[next]].array = static_cast<int32_t>(array);
+      if (m_.arrays[array].slot >= 0) m_.slots[static_cast<size_t>(m_.arrays[array].slot)].stored = true;
+    }
+    store(p, results[next++]);
+  }
+  return signature.result == Type::kVoid ? ir::kNoValue : results[0];
+}
+
+} // namespace slc

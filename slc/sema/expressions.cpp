@@ -1,0 +1,370 @@
+// Names, operators, tuples, assignments and casts. Calls are in calls.cpp.
+#include "slc/sema/checker.h"
+
+namespace slc {
+
+TypeSet Checker::set_of(const Expr& e) const {
+  auto it = sets_.find(&e);
+  return it == sets_.end() ? TypeSet(e.type) : it->second;
+}
+
+TypeSet Checker::analyse(Expr& e) {
+  TypeSet types = analyse_here(e);
+  sets_[&e] = types;
+  return types;
+}
+
+TypeSet Checker::analyse_here(Expr& e) {
+  switch (e.kind) {
+  case ExprKind::kNumber: return Type::kFloat;
+  case ExprKind::kString: return Type::kString;
+  case ExprKind::kVariable: return analyse_name(*as<VariableExpr>(&e));
+  case ExprKind::kIndex: return analyse_index(*as<IndexExpr>(&e));
+  case ExprKind::kTuple: {
+    auto& tuple = *as<TupleExpr>(&e);
+    for (ExprPtr& element : tuple.elements) analyse(*element);
+    return tuple.elements.size() == 16 ? TypeSet(Type::kMatrix) : TypeSet::triples();
+  }
+  case ExprKind::kArrayInit:
+    report(diags_, Msg::kMisplacedArrayInit, e.range);
+    return TypeSet::error();
+  case ExprKind::kOperator: return analyse_operator(*as<OperatorExpr>(&e));
+  case ExprKind::kLogical:
+    analyse(*as<LogicalExpr>(&e)->left);
+    analyse(*as<LogicalExpr>(&e)->right);
+    return Type::kBool;
+  case ExprKind::kConditional: return analyse_conditional(*as<ConditionalExpr>(&e));
+  case ExprKind::kCast: {
+    TypeSet operand = analyse(*as<CastExpr>(&e)->operand);
+    return operand.is_error() ? operand : TypeSet(as<CastExpr>(&e)->target);
+  }
+  case ExprKind::kCall: return analyse_call(*as<CallExpr>(&e));
+  case ExprKind::kAssign: return analyse_assign(*as<AssignExpr>(&e));
+  case ExprKind::kConvert:
+  case ExprKind::kTargetValue: return e.type;
+  }
+  return TypeSet::error();
+}
+
+void Checker::report_unknown_variable(std::string_view name, SourceRange where) {
+  std::vector<std::string_view> names = scopes_.visible_variables();
+  for (int g = 0; g < slvm::kGlobalCount && !scopes_.in_function(); ++g)
+    names.push_back(slvm::global_info(static_cast<Global>(g)).name);
+  std::string_view near = slvm::nearest_name(name, names);
+  if (near.empty()) report(diags_, Msg::kUnknownVariable, where, name);
+  else report(diags_, Msg::kUnknownVariableNear, where, name, near);
+}
+
+// The variable a name means here; null after an error.
+Variable* Checker::resolve(std::string_view name, SourceRange where) {
+  if (Variable* found = scopes_.find(name)) return found;
+  Global global = slvm::find_global(name);
+  Variable* hidden = scopes_.in_function() ? scopes_.find_outside(name) : nullptr;
+  if (global != Global::kCount && !hidden) {
+    hidden = global_variable(global);
+    if (!scopes_.in_function()) return hidden;
+  }
+  if (!hidden) {
+    report_unknown_variable(name, where);
+    return nullptr;
+  }
+  report(diags_, Msg::kNeedsExtern, where, name, slvm::type_name(hidden->type));
+  scopes_.declare(name, hidden); // once is enough
+  return hidden;
+}
+
+TypeSet Checker::analyse_name(VariableExpr& e) {
+  if (e.name == "PI" && !scopes_.find("PI")) return Type::kFloat; // finish() makes it a number
+  e.variable = resolve(e.name, e.range);
+  if (!e.variable) return TypeSet::error();
+  usage_.read(*e.variable, e.range);
+  e.array_length = e.variable->array_length;
+  return e.variable->type;
+}
+
+TypeSet Checker::analyse_index(IndexExpr& e) {
+  analyse(*e.index);
+  e.variable = resolve(e.name, e.range);
+  if (!e.variable) return TypeSet::error();
+  usage_.read(*e.variable, e.range);
+  if (e.variable->array_length == kNotArray) {
+    report(diags_, Msg::kNotAnArray, e.range, e.name);
+    return TypeSet::error();
+  }
+  float index = 0;
+  if (e.variable->array_length > 0 && constant_value(*e.index, index) &&
+      (index < 0 || index >= static_cast<float>(e.variable->array_length)))
+    report(diags_, Msg::kIndexRange, e.range, index, e.name, e.variable->array_length);
+  return e.variable->type;
+}
+
+TypeSet Checker::analyse_operator(OperatorExpr& e) {
+  Resolution resolution;
+  bool error = false;
+  for (ExprPtr& operand : e.operands) {
+    error |= analyse(*operand).is_error();
+    resolution.args.push_back(argument(*operand));
+  }
+  if (error) return TypeSet::error();
+  std::vector<Argument>& args = resolution.args;
+  if (args.size() == 2) {
+    // The other operand chooses where nothing else does: a color makes an overloaded call a color, and a promoted
+    // float takes the type of what it is combined with.
+    for (size_t i = 0; i < 2; ++i) {
+      TypeSet own = args[i].types, other = args[1 - i].types;
+      bool color = other.only(Type::kColor) && own.has(Type::kColor);
+      if (color || (own.only(Type::kFloat) && other.single())) args[i].preferred = other.preferred();
+    }
+  }
+  std::vector<Candidate> rows;
+  for (ShadeopId id : slvm::shadeop_overloads(fmt::format("operator{}", operator_text(e.op))))
+    rows.push_back({nullptr, id});
+  resolution.viable = viable(rows, args);
+  if (resolution.viable.empty()) {
+    report_bad_operands(e, args);
+    return TypeSet::error();
+  }
+  TypeSet types;
+  for (const Viable& v : resolution.viable) types.add(v.candidate.result());
+  resolutions_[&e] = std::move(resolution);
+  return types;
+}
+
+void Checker::report_bad_operands(const OperatorExpr& e, const std::vector<Argument>& args) {
+  auto any = [&](auto&& test) { return std::any_of(args.begin(), args.end(), test); };
+  bool color = any([](const Argument& a) { return a.types.only(Type::kColor); });
+  bool geometric = any([](const Argument& a) { return a.types.single() && slvm::is_geometric(a.types.preferred()); });
+  bool string = any([](const Argument& a) { return a.types.only(Type::kString); });
+  bool array = any([](const Argument& a) { return a.array_length != kNotArray; });
+  bool floats = !any([](const Argument& a) { return !a.types.has(Type::kFloat); });
+  std::string_view advice;
+  if (array) advice = "; arrays are used element by element";
+  else if (color && geometric) advice = "; cast one of them: colors and points do not mix";
+  else if (string) advice = "; strings can only be compared with == and !=, and joined with concat()";
+  else if (e.op == Operator::kCross && floats) advice = "; '^' is the cross product of vectors: for a power write pow(x, y)";
+  else if (e.op == Operator::kDot && floats) advice = "; '.' is the dot product of vectors or colors";
+  report(diags_, Msg::kBadOperands, e.range, operator_text(e.op), types_text(args), advice);
+}
+
+TypeSet Checker::analyse_conditional(ConditionalExpr& e) {
+  analyse(*e.condition);
+  bool error = analyse(*e.then_value).is_error();
+  error |= analyse(*e.else_value).is_error();
+  if (error) return TypeSet::error();
+  Resolution resolution;
+  Argument condition;
+  condition.types = Type::kBool;
+  resolution.args = {condition, argument(*e.then_value), argument(*e.else_value)};
+  std::vector<Candidate> rows;
+  for (ShadeopId id : slvm::shadeop_overloads("operator?:")) rows.push_back({nullptr, id});
+  resolution.viable = viable(rows, resolution.args);
+  if (resolution.viable.empty()) {
+    report(diags_, Msg::kBadBranches, e.range, types_text({resolution.args[1], resolution.args[2]}));
+    return TypeSet::error();
+  }
+  TypeSet types;
+  for (const Viable& v : resolution.viable) types.add(v.candidate.result());
+  resolutions_[&e] = std::move(resolution);
+  return types;
+}
+
+// False: reported.
+bool Checker::check_writable(const Variable& v, SourceRange where) {
+  if (v.output || v.kind == VariableKind::kLocal || v.kind == VariableKind::kGlobal) return true;
+  report(diags_, v.kind == VariableKind::kParameter ? Msg::kReadOnlyParameter : Msg::kReadOnlyFormal, where, v.name);
+  return false;
+}
+
+TypeSet Checker::analyse_assign(AssignExpr& e) {
+  Variable* v = nullptr;
+  TypeSet target;
+  if (auto* name = as<VariableExpr>(e.target.get())) {
+    if (name->name == "PI" && !scopes_.find("PI")) {
+      report(diags_, Msg::kNotAssignable, name->range);
+      return TypeSet::error();
+    }
+    v = name->variable = resolve(name->name, name->range);
+    if (v) name->array_length = v->array_length;
+    target = v ? TypeSet(v->type) : TypeSet::error();
+  } else {
+    auto& element = *as<IndexExpr>(e.target.get());
+    target = analyse_index(element);
+    v = element.variable;
+  }
+  sets_[e.target.get()] = target;
+  // What is stored.
+  bool list = e.value->kind == ExprKind::kArrayInit;
+  if (v && e.target->array_length != kNotArray && !list)
+    report(diags_, Msg::kArrayAssigned, e.range, v->name), target = TypeSet::error();
+  if (e.compound && !target.is_error()) {
+    usage_.read(*v, e.target->range);
+    auto combined = std::make_unique<OperatorExpr>(e.range);
+    combined->op = e.op;
+    auto old = std::make_unique<TargetValueExpr>(e.target->range);
+    old->type = v->type;
+    combined->operands.push_back(std::move(old));
+    combined->operands.push_back(std::move(e.value));
+    e.value = std::move(combined);
+  }
+  if (list && v && e.target->array_length != kNotArray) {
+    finish_array_init(*as<ArrayInitExpr>(e.value.get()), *v);
+  } else {
+    analyse(*e.value);
+  }
+  if (v) {
+    check_writable(*v, e.target->range);
+    usage_.written(*v);
+  }
+  return target;
+}
+
+// Picks types from here down. `wanted` is what the context would like; kVoid: anything.
+void Checker::finish(ExprPtr& e, Type wanted) {
+  TypeSet types = set_of(*e);
+  if (types.is_error()) {
+    e->type = wanted == Type::kVoid ? Type::kFloat : wanted;
+    return;
+  }
+  switch (e->kind) {
+  case ExprKind::kVariable:
+    if (!as<VariableExpr>(e.get())->variable) {
+      auto pi = std::make_unique<NumberExpr>(e->range);
+      pi->value = 3.14159265358979323846f;
+      pi->type = Type::kFloat;
+      replace(e, std::move(pi));
+      return;
+    }
+    break;
+  case ExprKind::kIndex: finish_as(as<IndexExpr>(e.get())->index, Type::kFloat, {Purpose::kIndex, ""}); break;
+  case ExprKind::kTuple: return finish_tuple(*as<TupleExpr>(e.get()), wanted);
+  case ExprKind::kOperator: return finish_operator(*as<OperatorExpr>(e.get()), wanted);
+  case ExprKind::kLogical: {
+    auto& logical = *as<LogicalExpr>(e.get());
+    finish_as(logical.left, Type::kBool, {Purpose::kOperand, ""});
+    finish_as(logical.right, Type::kBool, {Purpose::kOperand, ""});
+    break;
+  }
+  case ExprKind::kConditional: return finish_conditional(*as<ConditionalExpr>(e.get()), wanted);
+  case ExprKind::kCast: return finish_cast(e);
+  case ExprKind::kCall: return finish_call(e, wanted);
+  case ExprKind::kAssign: finish_assign(*as<AssignExpr>(e.get())); break;
+  default: break;
+  }
+  e->type = types.preferred();
+}
+
+void Checker::finish_tuple(TupleExpr& e, Type wanted) {
+  bool matrix = e.elements.size() == 16;
+  e.type = matrix ? Type::kMatrix : slvm::is_triple(wanted) ? wanted : Type::kPoint;
+  for (ExprPtr& element : e.elements) finish_as(element, Type::kFloat, {Purpose::kElement, ""});
+  e.shadeop = row(matrix ? "sixteen" : "triple", e.type, Type::kFloat);
+}
+
+void Checker::finish_operator(OperatorExpr& e, Type wanted) {
+  const Resolution& r = resolutions_.at(&e);
+  Candidate chosen = r.viable[choose(r.viable, r.args, wanted)].candidate;
+  e.shadeop = chosen.row;
+  e.type = chosen.result();
+  for (size_t i = 0; i < e.operands.size(); ++i)
+    finish_as(e.operands[i], chosen.param(i).type, {Purpose::kOperand, operator_text(e.op)});
+  if (e.op == Operator::kAdd && chosen.param(0).type == Type::kPoint && chosen.param(1).type == Type::kPoint &&
+      e.operands[0]->kind != ExprKind::kConvert && e.operands[1]->kind != ExprKind::kConvert)
+    report(diags_, Msg::kPointSum, e.range);
+}
+
+void Checker::finish_conditional(ConditionalExpr& e, Type wanted) {
+  check_condition(e.condition);
+  const Resolution& r = resolutions_.at(&e);
+  Candidate chosen = r.viable[choose(r.viable, r.args, wanted)].candidate;
+  e.type = chosen.result();
+  finish_as(e.then_value, e.type, {Purpose::kOperand, "?:"});
+  finish_as(e.else_value, e.type, {Purpose::kOperand, "?:"});
+}
+
+void Checker::finish_assign(AssignExpr& e) {
+  const Variable* v = e.target->kind == ExprKind::kVariable ? as<VariableExpr>(e.target.get())->variable
+                                                            : as<IndexExpr>(e.target.get())->variable;
+  finish(e.target, v->type);
+  e.target->type = v->type;
+  if (e.value->kind != ExprKind::kArrayInit) finish_as(e.value, v->type, {Purpose::kAssignment, v->name});
+  if (e.target->kind == ExprKind::kVariable) spaces_[v] = e.compound ? "" : space_of(*e.value);
+}
+
+void Checker::finish_array_init(ArrayInitExpr& e, const Variable& v) {
+  e.type = v.type;
+  e.array_length = v.array_length;
+  if (v.array_length == kNotArray) report(diags_, Msg::kArrayInitForValue, e.range, v.name);
+  else if (e.elements.size() > static_cast<size_t>(v.array_length))
+    report(diags_, Msg::kTooManyElements, e.range, e.elements.size(), v.name, v.array_length);
+  for (ExprPtr& element : e.elements) {
+    analyse(*element);
+    finish_as(element, v.type, {Purpose::kElement, v.name});
+  }
+}
+
+// A cast picks the operand's type where it can; what remains is a conversion, or a change of space.
+void Checker::finish_cast(ExprPtr& e) {
+  auto& cast = *as<CastExpr>(e.get());
+  Type target = cast.target;
+  if (cast.operand->array_length != kNotArray) return report(diags_, Msg::kCastArray, cast.range), void(e->type = target);
+  finish(cast.operand, target);
+  Type from = cast.operand->type;
+  bool possible = conversion_cost(from, target) < kImpossible || (slvm::is_triple(from) && slvm::is_triple(target));
+  if (!possible || from == Type::kVoid) {
+    report(diags_, Msg::kBadCast, cast.range, slvm::type_name(from), slvm::type_name(target));
+    e->type = target;
+    return;
+  }
+  convert(cast.operand, target, {Purpose::kCast, ""});
+  if (!cast.has_space) {
+    ExprPtr operand_expr = std::move(cast.operand);
+    operand_expr->range = cast.range;
+    replace(e, std::move(operand_expr));
+    return;
+  }
+  if (target == Type::kFloat) return report(diags_, Msg::kCastSpace, cast.range), void(e->type = target);
+  replace(e, space_cast(cast));
+}
+
+// point "world" x: transform("world", "current", x), and so on.
+ExprPtr Checker::space_cast(CastExpr& cast) {
+  auto string = [&](std::string_view text) {
+    auto s = std::make_unique<StringExpr>(cast.range);
+    s->value = text;
+    s->type = Type::kString;
+    return s;
+  };
+  auto call = std::make_unique<CallExpr>(cast.range);
+  call->name_range = cast.range;
+  call->args.push_back(string(cast.space));
+  bool color = cast.target == Type::kColor;
+  if (color) check_colour_space(*call->args[0]);
+  else check_space(*call->args[0]);
+  call->args.push_back(string(color ? "rgb" : "current"));
+  if (cast.target == Type::kMatrix) {
+    call->name = "spacematrix";
+    call->shadeop = slvm::shadeop_overloads(call->name)[0];
+    call->type = Type::kMatrix;
+    auto product = std::make_unique<OperatorExpr>(cast.range);
+    product->op = Operator::kMul;
+    product->shadeop = row("operator*", Type::kMatrix, Type::kMatrix);
+    product->type = Type::kMatrix;
+    product->operands.push_back(std::move(call));
+    product->operands.push_back(std::move(cast.operand));
+    return product;
+  }
+  call->name = color                            ? "ctransform"
+               : cast.target == Type::kPoint    ? "transform"
+               : cast.target == Type::kVector   ? "vtransform"
+                                                : "ntransform";
+  call->args.push_back(std::move(cast.operand));
+  call->type = cast.target;
+  for (ShadeopId id : slvm::shadeop_overloads(call->name)) {
+    const slvm::Signature& s = slvm::shadeop(id).signature;
+    if (s.param_count == 3 && s.params[1].type == Type::kString && s.params[2].type == cast.target) call->shadeop = id;
+  }
+  use_library_body(*call);
+  return call;
+}
+
+} // namespace slc

@@ -1,0 +1,16 @@
+// Advice for names that other shading languages have and RSL lacks.
+#pragma once
+
+#include "slc/ast/expr.h"
+
+#include <string_view>
+
+namespace slc {
+
+/// What to write instead of a call of `name`; empty when nothing is known.
+std::string_view function_hint(std::string_view name);
+
+/// A copy of a number or string, placed at `range`.
+ExprPtr copy_constant(const Expr&, SourceRange range);
+
+} // namespace slc

@@ -1,0 +1,63 @@
+// Name lookup.
+#include "slc/sema/scope.h"
+
+#include <utility>
+
+namespace slc {
+
+Variable* Scopes::declare(std::string_view name, Variable* v) {
+  auto [it, added] = scopes_.back().variables.try_emplace(std::string(name), v);
+  return added ? nullptr : std::exchange(it->second, v);
+}
+
+Variable* Scopes::find(std::string_view name) const {
+  for (size_t i = scopes_.size(); i-- > 0;) {
+    auto it = scopes_[i].variables.find(name);
+    if (it != scopes_[i].variables.end()) return it->second;
+    if (scopes_[i].function_boundary) break;
+  }
+  return nullptr;
+}
+
+Variable* Scopes::find_outside(std::string_view name) const {
+  size_t i = scopes_.size();
+  while (i-- > 0 && !scopes_[i].function_boundary) {}
+  for (; i != static_cast<size_t>(-1) && i-- > 0;) {
+    auto it = scopes_[i].variables.find(name);
+    if (it != scopes_[i].variables.end()) return it->second;
+  }
+  return nullptr;
+}
+
+std::vector<FunctionDef*> Scopes::functions(std::string_view name) const {
+  std::vector<FunctionDef*> found;
+  for (size_t i = scopes_.size(); i-- > 0;) {
+    auto it = scopes_[i].functions.find(name);
+    if (it != scopes_[i].functions.end()) found.insert(found.end(), it->second.begin(), it->second.end());
+  }
+  return found;
+}
+
+bool Scopes::in_function() const {
+  for (const Scope& scope : scopes_)
+    if (scope.function_boundary) return true;
+  return false;
+}
+
+std::vector<std::string_view> Scopes::visible_variables() const {
+  std::vector<std::string_view> names;
+  for (size_t i = scopes_.size(); i-- > 0;) {
+    for (const auto& [name, variable] : scopes_[i].variables) names.push_back(name);
+    if (scopes_[i].function_boundary) break;
+  }
+  return names;
+}
+
+std::vector<std::string_view> Scopes::visible_functions() const {
+  std::vector<std::string_view> names;
+  for (const Scope& scope : scopes_)
+    for (const auto& [name, functions] : scope.functions) names.push_back(name);
+  return names;
+}
+
+} // namespace slc
