@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Which folder may include which: docs/architecture.md draws these arrows, this list enforces them.
+
+A name is a folder (with all below it) or one header with its source; the longest name that fits a file is its module.
+'public' stands for all headers of slvm whose first comment says PUBLIC.
+"""
+import re
+
+import tree
+
+SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/renderer_services"]
+ALLOWED = {
+    "slvm/support": [],
+    "slvm/format": ["slvm/support", "slvm/value"],
+    "slvm/value": ["slvm/format"],
+    "slvm/ir": ["slvm/format", "slvm/support", "slvm/value"],
+    "slvm/wide": ["slvm/support"],
+    "slvm/grid": ["slvm/format", "slvm/wide", "slvm/support", "slvm/value"],
+    "slvm/renderer_services": ["slvm/grid", "slvm/format", "slvm/support", "slvm/value"],
+    "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
+    "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
+    "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",
+                     "slvm/support"] + SLVM_TOP,
+    "slvm/exec": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/machine", "slvm/evaluator",
+                  "slvm/support"] + SLVM_TOP,
+    "slvm/tools": ["slvm", "slc"],
+    "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
+    # Constant folding computes with the kernels: the tool hands them to the library.
+    "slc/tools": ["slc", "slvm"],
+    "render": ["public"],
+    "render/tools": ["render", "slc", "public"],
+    "stdlib": [],
+    "stdlib/dso": ["public"],
+    "python": ["slc", "public"],
+    "docs": ["slvm", "slc", "public"],
+    "tests": ["slc", "slvm", "render", "tests"],
+    "tests/external": [],
+}
+# The only folders that may use these libraries.
+OUTSIDE = {
+    r"embree[34]/": ["render/rays"],
+    r"OpenImageIO/": ["render", "tests/render"],
+    r"boost/": ["slc/preprocess"],
+    r"flatbuffers/": ["slvm/format"],
+    r"hwy/": ["slvm/wide", "slvm/kernels", "tests/bench", "tests/unit/kernels"],
+    r"sleef": ["slvm/wide", "slvm/kernels", "tests/unit/kernels"],
+    r"opensubdiv/": ["render/prims"],
+    r"CLI/": ["slc/tools", "slvm/tools", "render/tools"],
+}
+TREES = ("slc/", "slvm/", "render/", "stdlib/", "python/", "tests/", "docs/")
+
+
+def module(path):
+    stem = re.sub(r"\.\w+$", "", path)
+    fitting = [m for m in ALLOWED if stem == m or path.startswith(m + "/")]
+    return max(fitting, key=len, default=None)
+
+
+def within(path, names):
+    return any(path.startswith(n + "/") or re.sub(r"\.\w+$", "", path) == n for n in names)
+
+
+def is_public(path):
+    return path.endswith((".def", "_generated.h")) or "PUBLIC" in tree.head_comment(tree.read(path))
+
+
+def check_include(path, included, sources):
+    """What is wrong with this #include of another file of ours, or None."""
+    own, other = module(path), module(included)
+    if included not in sources:
+        generated = included.endswith("_generated.h") or "embedded" in included
+        return None if generated else f"includes '{included}', which is not a path from the root of a file in the tree"
+    if own is None:
+        return "is in no folder that .ci/check_deps.py knows"
+    if own == other:
+        return None
+    if "/tools/" in included and not path.startswith("tests/"):
+        return f"includes '{included}': nothing may depend on a tools folder"
+    allowed = ALLOWED[own]
+    if within(included, [a for a in allowed if a != "public"]):
+        return None
+    if "public" in allowed and included.startswith("slvm/"):
+        return None if is_public(included) else f"includes '{included}', which is not PUBLIC"
+    return f"includes '{included}': {own} may only depend on {', '.join(allowed) or 'nothing'}"
+
+
+def main():
+    problems = []
+    sources = set(tree.files(".h", ".cpp", ".inc", ".def"))
+    for path in sorted(s for s in sources if s.startswith(TREES)):
+        text = tree.read(path)
+        for included in re.findall(r'^\s*#\s*include\s+"([^"]+)"', text, re.M):
+            problem = check_include(path, included, sources)
+            if problem:
+                problems.append(f"{path} {problem}")
+            elif included in sources and path.endswith(".h") and is_public(path) and not is_public(included):
+                problems.append(f"{path} is PUBLIC but includes '{included}', which is not")
+        for included in re.findall(r"^\s*#\s*include\s+<([^>]+)>", text, re.M):
+            for pattern, folders in OUTSIDE.items():
+                if re.match(pattern, included) and not within(path, folders):
+                    problems.append(f"{path} includes <{included}>: only {', '.join(folders)} may")
+    tree.finish(problems)
+
+
+main()
