@@ -9,6 +9,7 @@
 
 #include "slc/ast/unit.h"
 #include "slc/preprocess/preprocess.h"
+#include "slvm/ir/passes/passes.h"
 #include "slvm/support/diagnostics.h"
 
 namespace slc {
@@ -20,6 +21,17 @@ struct CompileOptions {
   PreprocessOptions preprocess;
   /// Folder of the headers that come with Anemone, searched last; "" for none.
   std::string standard_include;
+  /// 0: code as written; 1: folding, copies, common subexpressions, dead code; 2: also code motion.
+  int optimise = 2;
+  /// Computes calls of constants (slvm/evaluator.h has one that runs the machine's kernels). Null: they stay calls, and
+  /// defaults of parameters that are computed stay unknown to introspection.
+  const slvm::ir::ConstantEvaluator* evaluator = nullptr;
+};
+
+/// A shader, compiled. A source file may define several.
+struct CompiledShader {
+  slvm::ir::Module module; ///< optimised
+  slvm::Program program;   ///< what write_slo() takes
 };
 
 /// A source file after all checks. Without errors in the diagnostics, what ast/*.h promises holds for `unit`.
@@ -37,6 +49,12 @@ public:
   /// Preprocesses, parses and checks file `main` of `sources`. Included files are added to `sources`.
   CheckedSource check(slvm::FileId main, const CompileOptions&, slvm::SourceManager& sources,
                       slvm::Diagnostics& diags) const;
+  /// The whole way. Empty when there are errors, or no shaders.
+  std::vector<CompiledShader> compile(slvm::FileId main, const CompileOptions&, slvm::SourceManager& sources,
+                                      slvm::Diagnostics& diags) const;
+  /// Code for the shaders of a checked source.
+  std::vector<CompiledShader> generate(const CheckedSource&, slvm::FileId main, const CompileOptions&,
+                                       const slvm::SourceManager& sources) const;
   /// Only the first step.
   PreprocessedText preprocess(slvm::FileId main, const CompileOptions&, slvm::SourceManager& sources,
                               slvm::Diagnostics& diags) const;

@@ -2,6 +2,7 @@
 #include "slc/lower/lowering.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace slc {
 

@@ -1,0 +1,46 @@
+// Code from checked source: lowering, optimisation, emission, and the program's tables.
+#include "slc/compiler.h"
+#include "slc/lower/lower.h"
+
+#include "slvm/format/slo.h"
+#include "slvm/format/verify.h"
+#include "slvm/ir/emit.h"
+#include "slvm/ir/serialise.h"
+
+#include <cassert>
+
+namespace slc {
+
+std::vector<CompiledShader> Compiler::compile(slvm::FileId main, const CompileOptions& options, slvm::SourceManager& sources,
+                                              slvm::Diagnostics& diags) const {
+  CheckedSource checked = check(main, options, sources, diags);
+  if (diags.has_errors()) return {};
+  return generate(checked, main, options, sources);
+}
+
+std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slvm::FileId main, const CompileOptions& options,
+                                               const slvm::SourceManager& sources) const {
+  std::vector<std::string> files;
+  for (slvm::FileId id = 0; id == 0 || !sources.name(id).empty(); ++id) files.emplace_back(sources.name(id));
+  std::vector<CompiledShader> out;
+  for (const Shader& shader : checked.unit.shaders) {
+    CompiledShader& compiled = out.emplace_back();
+    compiled.module = lower_shader(shader, files);
+    slvm::ir::optimise(compiled.module, options.optimise, options.evaluator);
+    settle_defaults(compiled.module);
+    slvm::ir::infer_detail(compiled.module);
+    slvm::Program& p = compiled.program;
+    p.kind = shader.kind;
+    p.name = shader.name;
+    p.source_name = sources.name(main);
+    p.source_hash = slvm::hash_bytes(std::as_bytes(std::span(checked.text.text)));
+    for (const Annotation& a : shader.annotations) p.annotations.push_back({a.id, a.text});
+    p.facts = collect_facts(compiled.module);
+    slvm::ir::emit(compiled.module, p);
+    p.ir = slvm::ir::serialise(compiled.module);
+    assert(slvm::verify_program(p).empty());
+  }
+  return out;
+}
+
+} // namespace slc
