@@ -40,7 +40,8 @@ bool is_standard_mode(std::string_view mode) {
 slvm::Result<AovChannel> parse_aov(const std::string& mode) {
   auto declared = Declarations().resolve(mode);
   if (declared) {
-    if (declared->type == slvm::Type::kString || declared->type == slvm::Type::kMatrix || declared->elements > 0)
+    if (declared->type == slvm::Type::kString || declared->type == slvm::Type::kMatrix ||
+        declared->elements > 0)
       return slvm::Error{fmt::format("\"{}\" cannot be shown as an image", mode)};
     return AovChannel{declared->name, slvm::components(declared->type), 0};
   }
@@ -55,7 +56,8 @@ std::vector<OutputChannel> output_channels(const std::string& mode, const std::v
   using Group = OutputChannel::Group;
   if (is_standard_mode(mode)) {
     if (mode.find("rgb") != std::string::npos)
-      for (int c = 0; c < 3; ++c) out.push_back({std::string(1, "RGB"[c]), Image::kCi + c, Group::kColor});
+      for (int c = 0; c < 3; ++c)
+        out.push_back({std::string(1, "RGB"[c]), Image::kCi + c, Group::kColor});
     if (mode.find('a') != std::string::npos) out.push_back({"A", Image::kAlpha, Group::kColor});
     if (mode.find('z') != std::string::npos) out.push_back({"Z", Image::kZ, Group::kDepth});
     return out;
@@ -89,9 +91,10 @@ slvm::Result<Format> choose_format(const DisplayRequest& d) {
     return Format{"tiff", "tif"};
   }
   if (known(t)) return Format{t, t};
-  return slvm::Error{fmt::format("unknown type \"{}\"; expected \"tiff\", \"png\", \"openexr\", \"file\", \"null\" or "
-                                 "another format of OpenImageIO",
-                                 t)};
+  return slvm::Error{
+      fmt::format("unknown type \"{}\"; expected \"tiff\", \"png\", \"openexr\", \"file\", \"null\" or "
+                  "another format of OpenImageIO",
+                  t)};
 }
 
 /// What one channel becomes: quantised integers or floats.
@@ -148,8 +151,8 @@ template <class T>
 std::vector<std::byte> Writer::pack(const std::vector<OutputChannel>& channels, const Quantization& color,
                                     const Quantization& depth) const {
   const PixelRect& r = image_.rect;
-  std::vector<std::byte> out(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) * channels.size() *
-                             sizeof(T));
+  std::vector<std::byte> out(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) *
+                             channels.size() * sizeof(T));
   std::byte* at = out.data();
   for (int y = r.y0; y < r.y1; ++y)
     for (int x = r.x0; x < r.x1; ++x)
@@ -157,8 +160,10 @@ std::vector<std::byte> Writer::pack(const std::vector<OutputChannel>& channels, 
         float v = image_.pixel(x, y)[c.source];
         const Quantization& q = c.group == OutputChannel::Group::kDepth ? depth : color;
         T value;
-        if constexpr (std::is_same_v<T, float>) value = q.one == 0 ? v : static_cast<T>(quantize(v, q, x, y, c.source));
-        else value = static_cast<T>(quantize(v, q, x, y, c.source));
+        if constexpr (std::is_same_v<T, float>)
+          value = q.one == 0 ? v : static_cast<T>(quantize(v, q, x, y, c.source));
+        else
+          value = static_cast<T>(quantize(v, q, x, y, c.source));
         std::memcpy(at, &value, sizeof(T));
         at += sizeof(T);
       }
@@ -187,9 +192,12 @@ slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
   if (auto it = d.params.find("compression"); it != d.params.end() && !it->second.strings.empty())
     spec.attribute("compression", it->second.strings[0]);
   std::vector<std::byte> pixels;
-  if (type == OIIO::TypeDesc::UINT8) pixels = pack<uint8_t>(channels, color, depth);
-  else if (type == OIIO::TypeDesc::UINT16) pixels = pack<uint16_t>(channels, color, depth);
-  else pixels = pack<float>(channels, color, depth);
+  if (type == OIIO::TypeDesc::UINT8)
+    pixels = pack<uint8_t>(channels, color, depth);
+  else if (type == OIIO::TypeDesc::UINT16)
+    pixels = pack<uint16_t>(channels, color, depth);
+  else
+    pixels = pack<float>(channels, color, depth);
 
   auto out = OIIO::ImageOutput::create(format->plugin);
   if (!out) return slvm::Error{OIIO::geterror()};
@@ -220,7 +228,8 @@ std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& 
       diagnostics.error(d.where, "Display: " + aov.error());
       continue;
     }
-    bool known = std::any_of(out.begin(), out.end(), [&](const AovChannel& a) { return a.name == aov->name; });
+    bool known =
+        std::any_of(out.begin(), out.end(), [&](const AovChannel& a) { return a.name == aov->name; });
     if (known) continue;
     aov->first = floats;
     floats += aov->components;
@@ -229,15 +238,17 @@ std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& 
   return out;
 }
 
-std::vector<std::string> write_displays(const Scene& scene, const Image& image, const std::vector<AovChannel>& aovs,
-                                        slvm::Diagnostics& diagnostics) {
+std::vector<std::string> write_displays(const Scene& scene, const Image& image,
+                                        const std::vector<AovChannel>& aovs, slvm::Diagnostics& diagnostics) {
   std::vector<std::string> written;
   Writer writer(scene, image, aovs);
   for (const DisplayRequest& d : scene.options.displays) {
     if (d.type == "null") continue;
     auto name = writer.write(d);
-    if (name) written.push_back(*name);
-    else diagnostics.error(d.where, "Display: " + name.error());
+    if (name)
+      written.push_back(*name);
+    else
+      diagnostics.error(d.where, "Display: " + name.error());
   }
   return written;
 }

@@ -1,5 +1,5 @@
-// From the Display requests and a finished image to files. Types are formats of OpenImageIO; a file is written under a
-// temporary name and renamed when complete.
+// From the Display requests and a finished image to files. Types are formats of OpenImageIO; a file is
+// written under a temporary name and renamed when complete.
 #pragma once
 
 #include "render/hider/image.h"
@@ -11,13 +11,13 @@
 
 namespace render {
 
-/// The shader variables the displays ask for, each once, with their places among the AOV floats of a pixel. Modes that
-/// cannot be understood are reported.
+/// The shader variables the displays ask for, each once, with their places among the AOV floats of a pixel.
+/// Modes that cannot be understood are reported.
 std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& diagnostics);
 
-/// Writes all displays. Errors go to `diagnostics` at the Display request's position. Returns the names of the files
-/// written.
-std::vector<std::string> write_displays(const Scene& scene, const Image& image, const std::vector<AovChannel>& aovs,
-                                        slvm::Diagnostics& diagnostics);
+/// Writes all displays. Errors go to `diagnostics` at the Display request's position. Returns the names of
+/// the files written.
+std::vector<std::string> write_displays(const Scene& scene, const Image& image,
+                                        const std::vector<AovChannel>& aovs, slvm::Diagnostics& diagnostics);
 
 } // namespace render

@@ -1,5 +1,5 @@
-// Filter formulas: box, triangle, gaussian, catmull-rom and sinc as in RISpec 3.2, appendix E; b-spline and mitchell
-// (Mitchell and Netravali, 1988, B = C = 1/3) are separable cubics scaled to the filter's width.
+// Filter formulas: box, triangle, gaussian, catmull-rom and sinc as in RISpec 3.2, appendix E; b-spline and
+// mitchell (Mitchell and Netravali, 1988, B = C = 1/3) are separable cubics scaled to the filter's width.
 #include "render/hider/filter.h"
 
 #include <cmath>
@@ -14,7 +14,9 @@ float catmull_rom(float r) {
   return ((-0.5f * r + 2.5f) * r - 4) * r + 2;
 }
 
-float sinc(float x) { return std::abs(x) < 1e-3f ? 1.0f : std::sin(x) / x; }
+float sinc(float x) {
+  return std::abs(x) < 1e-3f ? 1.0f : std::sin(x) / x;
+}
 
 /// The family of cubics of Mitchell and Netravali, for |x| up to 2.
 float cubic(float x, float b, float c) {

@@ -1,9 +1,10 @@
 // The frame loop. Order of work:
 //   1. split: every primitive, in parallel, into GridTasks (a few dozen bytes each);
 //   2. bin: each bucket gets the list of tasks that may touch it, nearest first;
-//   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are closed. A grid
-//      is diced and shaded by the first bucket that needs it and freed by the last one in whose list it is, so the
-//      grids in memory are those of about one row of buckets.
+//   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are
+//   closed. A grid
+//      is diced and shaded by the first bucket that needs it and freed by the last one in whose list it is,
+//      so the grids in memory are those of about one row of buckets.
 #include "render/hider/frame.h"
 
 #include "render/hider/random.h"
@@ -19,6 +20,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 namespace render {
 
@@ -40,8 +42,10 @@ struct GridSlot {
 class FrameRenderer {
 public:
   FrameRenderer(const Scene& scene, Shading& shading, const FrameSettings& settings)
-      : scene_(scene), options_(scene.options), shading_(shading), settings_(settings), camera_(scene.options) {
-    for (const AovChannel& c : settings.aovs) aov_floats_ += c.components;
+      : scene_(scene), options_(scene.options), shading_(shading), settings_(settings),
+        camera_(scene.options) {
+    for (const AovChannel& c : settings.aovs)
+      aov_floats_ += c.components;
     sampling_ = SamplingSettings::from(options_, aov_floats_);
     threads_ = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
     image_ = Image(camera_.crop(), aov_floats_);
@@ -155,7 +159,8 @@ void FrameRenderer::make_buckets() {
     int j0 = index(task.raster_min.y, my, crop.y0, bh, rows, -1);
     int j1 = index(task.raster_max.y, my, crop.y0, bh, rows, 1);
     for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; ++i) buckets_[static_cast<size_t>(j * columns + i)].tasks.push_back(t);
+      for (int i = i0; i <= i1; ++i)
+        buckets_[static_cast<size_t>(j * columns + i)].tasks.push_back(t);
     slots_[t].users = static_cast<uint32_t>((j1 - j0 + 1) * (i1 - i0 + 1));
   }
   tbb::parallel_for(size_t{0}, buckets_.size(), [&](size_t b) {
@@ -178,8 +183,8 @@ void FrameRenderer::render_bucket(Bucket& bucket, Worker& worker) {
   if (options_.imager) run_imager(bucket.rect, worker);
 }
 
-/// The task's grid, shaded now if no other bucket has done it. Another thread at it is waited for: it needs nothing
-/// from this one.
+/// The task's grid, shaded now if no other bucket has done it. Another thread at it is waited for: it needs
+/// nothing from this one.
 const ShadedGrid* FrameRenderer::shaded(uint32_t task, Worker& worker) {
   GridSlot& slot = slots_[task];
   uint8_t expected = GridSlot::kNew;
@@ -204,13 +209,16 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
                       options_.shutter_close - options_.shutter_open};
   slvm::Grid& grid = worker.grid;
   dice(primitive, task, index, context, grid);
+  std::optional<GridOutline> outline;
+  if (!primitive.geometry->ruled())
+    outline = find_outline(grid, task.rect, camera_, std::sqrt(primitive.attributes().shading_rate));
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
   if (primitive.attributes().sides == 1 && faces_away(grid, camera_)) return nullptr;
   worker.shader->shade(primitive, grid);
   ++worker.shaded_grids;
   worker.shaded_points += grid.points();
-  auto out = std::make_unique<ShadedGrid>(
-      make_shaded_grid(primitive, grid, camera_, settings_.aovs, *worker.shader));
+  auto out = std::make_unique<ShadedGrid>(make_shaded_grid(
+      primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
   worker.bad_colours += out->bad_colours;
   return out;
 }

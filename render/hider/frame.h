@@ -1,5 +1,5 @@
-// One frame: splits all primitives, hides bucket by bucket on all processors, shades each visible grid once, returns
-// the finished pixels. Read after prims/split.h, prims/dice.h, hider/sample_buffer.h.
+// One frame: splits all primitives, hides bucket by bucket on all processors, shades each visible grid once,
+// returns the finished pixels. Read after prims/split.h, prims/dice.h, hider/sample_buffer.h.
 #pragma once
 
 #include "render/hider/image.h"

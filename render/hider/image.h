@@ -29,14 +29,16 @@ struct Image {
   Image() = default;
   Image(PixelRect r, int aov_floats)
       : rect(r), channels(kAov + aov_floats),
-        data(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) * static_cast<size_t>(channels)) {}
+        data(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) *
+             static_cast<size_t>(channels)) {}
   /// Coordinates are those of the frame.
   float* pixel(int x, int y) { return data.data() + offset(x, y); }
   const float* pixel(int x, int y) const { return data.data() + offset(x, y); }
 
 private:
   size_t offset(int x, int y) const {
-    return (static_cast<size_t>(y - rect.y0) * static_cast<size_t>(rect.width()) + static_cast<size_t>(x - rect.x0)) *
+    return (static_cast<size_t>(y - rect.y0) * static_cast<size_t>(rect.width()) +
+            static_cast<size_t>(x - rect.x0)) *
            static_cast<size_t>(channels);
   }
 };

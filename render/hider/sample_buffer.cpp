@@ -11,10 +11,12 @@ namespace render {
 
 namespace {
 
-int margin(float width) { return std::max(0, static_cast<int>(std::ceil(width / 2 - 0.5f))); }
+int margin(float width) {
+  return std::max(0, static_cast<int>(std::ceil(width / 2 - 0.5f)));
+}
 
-/// Twice the signed area of a, b, p, computed the same way for b, a, p, so that of two triangles that share an edge
-/// exactly one contains a sample on or near it.
+/// Twice the signed area of a, b, p, computed the same way for b, a, p, so that of two triangles that share
+/// an edge exactly one contains a sample on or near it.
 struct Edge {
   Vec2 a, d;
   bool swapped;
@@ -36,9 +38,11 @@ struct Triangle {
     bool l0 = bc.left(e[0]), l1 = ca.left(e[1]), l2 = ab.left(e[2]);
     if (l0 != l1 || l1 != l2) return false;
     float sum = 0;
-    for (float& x : e) sum += x = std::abs(x);
+    for (float& x : e)
+      sum += x = std::abs(x);
     if (!(sum > 0)) return false;
-    for (int i = 0; i < 3; ++i) weights[i] = e[i] / sum;
+    for (int i = 0; i < 3; ++i)
+      weights[i] = e[i] / sum;
     return true;
   }
 };
@@ -47,21 +51,27 @@ bool reaches(Color opacity, Color threshold) {
   return opacity.x >= threshold.x && opacity.y >= threshold.y && opacity.z >= threshold.z;
 }
 
-template <class T>
-T blend(const std::vector<T>& values, const size_t (&corners)[3], const float (&w)[3]) {
-  return values[corners[0]] * w[0] + values[corners[1]] * w[1] + values[corners[2]] * w[2];
+/// Differences, so that equal values stay exactly what they are.
+template <class T> T blend(T a, T b, T c, const float (&w)[3]) {
+  return a + (b - a) * w[1] + (c - a) * w[2];
 }
 
 } // namespace
 
 SamplingSettings SamplingSettings::from(const Options& o, int aov_floats) {
-  return {o.xsamples, o.ysamples, o.jitter, o.filter, o.opacity_threshold, o.near_plane, o.far_plane, aov_floats};
+  return {o.xsamples,          o.ysamples,   o.jitter,    o.filter,
+          o.opacity_threshold, o.near_plane, o.far_plane, aov_floats};
 }
 
-int SamplingSettings::xmargin() const { return margin(filter.xwidth); }
-int SamplingSettings::ymargin() const { return margin(filter.ywidth); }
+int SamplingSettings::xmargin() const {
+  return margin(filter.xwidth);
+}
+int SamplingSettings::ymargin() const {
+  return margin(filter.ywidth);
+}
 
-SampleBuffer::SampleBuffer(PixelRect rect, const SamplingSettings& settings) : settings_(settings), rect_(rect) {
+SampleBuffer::SampleBuffer(PixelRect rect, const SamplingSettings& settings)
+    : settings_(settings), rect_(rect) {
   int mx = settings.xmargin(), my = settings.ymargin();
   covered_ = {rect.x0 - mx, rect.y0 - my, rect.x1 + mx, rect.y1 + my};
   width_ = covered_.width() * settings.xsamples;
@@ -116,18 +126,22 @@ void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
       Sample& s = samples_[index];
       if (first.contains(s.at, weights)) hit(grid, s, index, {corner[0], corner[1], corner[3]}, weights);
       // A folded micropolygon may cover a sample twice; it counts once.
-      else if (second.contains(s.at, weights)) hit(grid, s, index, {corner[0], corner[3], corner[2]}, weights);
+      else if (second.contains(s.at, weights))
+        hit(grid, s, index, {corner[0], corner[3], corner[2]}, weights);
     }
 }
 
 void SampleBuffer::hit(const ShadedGrid& grid, Sample& sample, size_t index, const size_t (&corners)[3],
                        const float (&weights)[3]) {
   const auto& p = grid.position;
-  float z = p[corners[0]].z * weights[0] + p[corners[1]].z * weights[1] + p[corners[2]].z * weights[2];
+  float z = blend(p[corners[0]].z, p[corners[1]].z, p[corners[2]].z, weights);
   if (z >= sample.z || z < settings_.near_plane || z > settings_.far_plane) return;
   // corners[0] is the micropolygon's own corner, whose colour it has throughout without smooth shading.
-  Color Ci = grid.smooth ? blend(grid.Ci, corners, weights) : grid.Ci[corners[0]];
-  Color Oi = grid.smooth ? blend(grid.Oi, corners, weights) : grid.Oi[corners[0]];
+  Color Ci = grid.Ci[corners[0]], Oi = grid.Oi[corners[0]];
+  if (grid.smooth) {
+    Ci = blend(Ci, grid.Ci[corners[1]], grid.Ci[corners[2]], weights);
+    Oi = blend(Oi, grid.Oi[corners[1]], grid.Oi[corners[2]], weights);
+  }
   auto aovs = static_cast<size_t>(settings_.aov_floats);
   const float* aov = grid.aov.data() + corners[0] * aovs;
   if (reaches(Oi, settings_.opacity_threshold)) {
@@ -151,7 +165,8 @@ float SampleBuffer::farthest() const {
   if (open_ > 0) return kInfinity;
   if (!farthest_known_) {
     farthest_ = 0;
-    for (const Sample& s : samples_) farthest_ = std::max(farthest_, s.z);
+    for (const Sample& s : samples_)
+      farthest_ = std::max(farthest_, s.z);
     farthest_known_ = true;
   }
   return farthest_;
@@ -179,7 +194,8 @@ SampleBuffer::Result SampleBuffer::composite(size_t index) {
   auto keep_first = [&](const Fragment* f) {
     if (aovs == 0) return;
     auto order = static_cast<std::ptrdiff_t>(f->order) * static_cast<std::ptrdiff_t>(aovs);
-    std::copy_n(fragment_aov_.begin() + order, aovs, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs));
+    std::copy_n(fragment_aov_.begin() + order, aovs,
+                sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs));
   };
   for (const Fragment* f : scratch_) {
     if (out.z == kInfinity && !f->matte) {
@@ -191,17 +207,21 @@ SampleBuffer::Result SampleBuffer::composite(size_t index) {
   }
   if (sample.z < kInfinity) {
     add(sample.Ci, sample.Oi, sample.matte);
-    if (!sample.matte) out.z = std::min(out.z, sample.z);
-    else if (out.z == kInfinity) std::fill_n(sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs), aovs, 0.0f);
+    if (!sample.matte)
+      out.z = std::min(out.z, sample.z);
+    else if (out.z == kInfinity)
+      std::fill_n(sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs), aovs, 0.0f);
   }
   return out;
 }
 
 void SampleBuffer::finish(Image& image) {
   results_.resize(samples_.size());
-  for (size_t i = 0; i < samples_.size(); ++i) results_[i] = composite(i);
+  for (size_t i = 0; i < samples_.size(); ++i)
+    results_[i] = composite(i);
   for (int y = rect_.y0; y < rect_.y1; ++y)
-    for (int x = rect_.x0; x < rect_.x1; ++x) filter_pixel(x, y, image.pixel(x, y));
+    for (int x = rect_.x0; x < rect_.x1; ++x)
+      filter_pixel(x, y, image.pixel(x, y));
 }
 
 void SampleBuffer::filter_pixel(int x, int y, float* out) const {
@@ -214,8 +234,10 @@ void SampleBuffer::filter_pixel(int x, int y, float* out) const {
   out[Image::kZ] = Image::kEmptyDepth;
   float total = 0;
   auto accumulate = [&](int from_x, int to_x, int from_y, int to_y, bool even) {
-    for (int j = (from_y - covered_.y0) * settings_.ysamples; j < (to_y - covered_.y0) * settings_.ysamples; ++j)
-      for (int i = (from_x - covered_.x0) * settings_.xsamples; i < (to_x - covered_.x0) * settings_.xsamples; ++i) {
+    for (int j = (from_y - covered_.y0) * settings_.ysamples; j < (to_y - covered_.y0) * settings_.ysamples;
+         ++j)
+      for (int i = (from_x - covered_.x0) * settings_.xsamples; i < (to_x - covered_.x0) * settings_.xsamples;
+           ++i) {
         size_t k = static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i);
         const Sample& s = samples_[k];
         float w = even ? 1 : filter_weight(filter, s.at.x - cx, s.at.y - cy);
@@ -225,19 +247,23 @@ void SampleBuffer::filter_pixel(int x, int y, float* out) const {
           out[Image::kCi + c] += w * results_[k].Ci[c];
           out[Image::kOi + c] += w * results_[k].Oi[c];
         }
-        for (size_t c = 0; c < aovs; ++c) out[static_cast<size_t>(Image::kAov) + c] += w * sample_aov_[k * aovs + c];
+        for (size_t c = 0; c < aovs; ++c)
+          out[static_cast<size_t>(Image::kAov) + c] += w * sample_aov_[k * aovs + c];
       }
   };
   accumulate(x - mx, x + mx + 1, y - my, y + my + 1, false);
   // A filter so narrow that it missed all samples: the plain mean of the pixel.
   if (total == 0) accumulate(x, x + 1, y, y + 1, true);
-  for (int c = 0; c < 6; ++c) out[c] /= total;
-  for (size_t c = 0; c < aovs; ++c) out[static_cast<size_t>(Image::kAov) + c] /= total;
+  for (int c = 0; c < 6; ++c)
+    out[c] /= total;
+  for (size_t c = 0; c < aovs; ++c)
+    out[static_cast<size_t>(Image::kAov) + c] /= total;
   out[Image::kAlpha] = (out[3] + out[4] + out[5]) / 3;
   // Depths are not blended: the nearest of the pixel's own samples.
   for (int j = 0; j < settings_.ysamples; ++j)
     for (int i = 0; i < settings_.xsamples; ++i) {
-      int row = (y - covered_.y0) * settings_.ysamples + j, column = (x - covered_.x0) * settings_.xsamples + i;
+      int row = (y - covered_.y0) * settings_.ysamples + j,
+          column = (x - covered_.x0) * settings_.xsamples + i;
       size_t k = static_cast<size_t>(row) * static_cast<size_t>(width_) + static_cast<size_t>(column);
       out[Image::kZ] = std::min(out[Image::kZ], results_[k].z);
     }

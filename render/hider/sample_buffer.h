@@ -1,5 +1,5 @@
-// The samples of one bucket: jittered positions, the opaque surface nearest to each, and the transparent ones in front
-// of it; composited and filtered into pixels when all grids are in.
+// The samples of one bucket: jittered positions, the opaque surface nearest to each, and the transparent ones
+// in front of it; composited and filtered into pixels when all grids are in.
 #pragma once
 
 #include "render/hider/image.h"
@@ -62,7 +62,8 @@ private:
   static constexpr uint32_t kNone = 0xffffffffu;
 
   void draw_micropolygon(const ShadedGrid& grid, size_t k);
-  void hit(const ShadedGrid& grid, Sample& sample, size_t index, const size_t (&corners)[3], const float (&weights)[3]);
+  void hit(const ShadedGrid& grid, Sample& sample, size_t index, const size_t (&corners)[3],
+           const float (&weights)[3]);
   Result composite(size_t index);
   void filter_pixel(int x, int y, float* out) const;
 

@@ -7,9 +7,13 @@ namespace render {
 
 namespace {
 
-Vec3 read(const slvm::Planes& p, size_t k) { return {p.get(0, k), p.get(1, k), p.get(2, k)}; }
+Vec3 read(const slvm::Planes& p, size_t k) {
+  return {p.get(0, k), p.get(1, k), p.get(2, k)};
+}
 
-bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(Vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 void hide_micropolygons(const slvm::Grid& grid, const Camera& camera, bool one_sided, ShadedGrid& out) {
   const slvm::Planes& P = grid.variable(slvm::Global::kP);
@@ -22,7 +26,8 @@ void hide_micropolygons(const slvm::Grid& grid, const Camera& camera, bool one_s
       size_t k = j * nu + i;
       Vec3 p[4] = {read(P, k), read(P, k + 1), read(P, k + nu), read(P, k + nu + 1)};
       bool hidden = false;
-      for (Vec3 q : p) hidden = hidden || !is_finite(q) || q.z < nearest;
+      for (Vec3 q : p)
+        hidden = hidden || !is_finite(q) || q.z < nearest;
       // The two diagonals span the plane of the micropolygon also where a side has collapsed.
       if (one_sided) {
         Vec3 normal = glm::cross(p[3] - p[0], p[2] - p[1]) * sign;
@@ -35,7 +40,8 @@ void hide_micropolygons(const slvm::Grid& grid, const Camera& camera, bool one_s
 } // namespace
 
 ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
-                            std::span<const AovChannel> aovs, GridShader& shader) {
+                            const GridOutline* outline, std::span<const AovChannel> aovs,
+                            GridShader& shader) {
   ShadedGrid out;
   const Attributes& a = primitive.attributes();
   out.nu = grid.nu();
@@ -58,7 +64,8 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
     out.Oi[k] = Color(1.0f);
     ++out.bad_colours;
   }
-  for (const AovChannel& c : aovs) out.aov_floats += c.components;
+  for (const AovChannel& c : aovs)
+    out.aov_floats += c.components;
   out.aov.assign(points * static_cast<size_t>(out.aov_floats), 0.0f);
   for (const AovChannel& c : aovs) {
     const slvm::Planes* planes = shader.output(primitive, grid, c.name);
@@ -70,6 +77,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
             planes->get(static_cast<size_t>(i), k);
   }
   hide_micropolygons(grid, camera, a.sides == 1, out);
+  if (outline) snap_to_outline(*outline, out.nu, out.nv, out.position);
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include "render/hider/image.h"
 #include "render/prims/primitive.h"
+#include "render/prims/stitch.h"
 #include "render/shading/grid_shader.h"
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 namespace render {
 
 struct ShadedGrid {
-  int nu = 0, nv = 0; ///< points
+  int nu = 0, nv = 0;         ///< points
   std::vector<Vec3> position; ///< raster x and y, camera z
   std::vector<Color> Ci, Oi;
   std::vector<float> aov; ///< aov_floats a point
@@ -23,9 +24,9 @@ struct ShadedGrid {
   size_t bad_colours = 0; ///< points whose colour was not a finite number; they became black and opaque
 };
 
-/// From a grid that was displaced and shaded. Micropolygons that face away (Sides 1) or touch the eye plane are
-/// hidden.
+/// From a grid that was displaced and shaded. Micropolygons that face away (Sides 1) or touch the eye plane
+/// are hidden. Null outline: none is needed.
 ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
-                            std::span<const AovChannel> aovs, GridShader& shader);
+                            const GridOutline* outline, std::span<const AovChannel> aovs, GridShader& shader);
 
 } // namespace render

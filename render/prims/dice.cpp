@@ -24,7 +24,9 @@ Triple triple(slvm::Grid& grid, Global g) {
   return {x, x + grid.pitch(), x + 2 * grid.pitch()};
 }
 
-Vec3 read(const slvm::Planes& p, size_t k) { return {p.get(0, k), p.get(1, k), p.get(2, k)}; }
+Vec3 read(const slvm::Planes& p, size_t k) {
+  return {p.get(0, k), p.get(1, k), p.get(2, k)};
+}
 
 std::vector<float> parameters(float from, float to, int n) {
   std::vector<float> out(static_cast<size_t>(n));
@@ -37,15 +39,16 @@ std::vector<float> parameters(float from, float to, int n) {
 class Dicer {
 public:
   Dicer(const Primitive& primitive, const GridTask& task, const DiceContext& context, slvm::Grid& grid)
-      : primitive_(primitive), state_(*primitive.state), attributes_(primitive.attributes()), context_(context),
-        grid_(grid), u_(parameters(task.rect.u0, task.rect.u1, task.nu)),
+      : primitive_(primitive), state_(*primitive.state), attributes_(primitive.attributes()),
+        context_(context), grid_(grid), u_(parameters(task.rect.u0, task.rect.u1, task.nu)),
         v_(parameters(task.rect.v0, task.rect.v1, task.nv)) {}
 
   void run() {
     set_geometry();
     set_parameters();
     set_colours();
-    for (const PatchVar& var : primitive_.vars) set_primvar(var);
+    for (const PatchVar& var : primitive_.vars)
+      set_primvar(var);
   }
 
 private:
@@ -68,11 +71,12 @@ void Dicer::set_geometry() {
   SurfaceLattice lattice;
   primitive_.geometry->evaluate(u_, v_, lattice);
   grid_.flip_normals = attributes_.flips_normals(state_.mirrored);
-  // N is the transformed object-space normal, which points to the object's outside whatever the handedness; what
-  // the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
+  // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
+  // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
   float sign = grid_.flip_normals == state_.mirrored ? 1.0f : -1.0f;
   Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN), Ng = triple(grid_, Global::kNg),
-         dPdu = triple(grid_, Global::kdPdu), dPdv = triple(grid_, Global::kdPdv), I = triple(grid_, Global::kI);
+         dPdu = triple(grid_, Global::kdPdu), dPdv = triple(grid_, Global::kdPdv),
+         I = triple(grid_, Global::kI);
   const Matrix4& m = state_.object_to_camera;
   const Matrix4& inverse = state_.camera_to_object;
   for (size_t k = 0; k < lattice.P.size(); ++k) {
@@ -84,7 +88,8 @@ void Dicer::set_geometry() {
     // Normals go by the inverse transpose.
     Vec3 n = lattice.N[k];
     Vec3 nc;
-    for (int i = 0; i < 3; ++i) nc[i] = sign * (inverse(i, 0) * n.x + inverse(i, 1) * n.y + inverse(i, 2) * n.z);
+    for (int i = 0; i < 3; ++i)
+      nc[i] = sign * (inverse(i, 0) * n.x + inverse(i, 1) * n.y + inverse(i, 2) * n.z);
     N.set(k, nc);
     Ng.set(k, nc);
   }
@@ -107,7 +112,9 @@ void Dicer::set_parameters() {
     }
   float du = (u_.back() - u_.front()) / static_cast<float>(u_.size() - 1);
   float dv = (v_.back() - v_.front()) / static_cast<float>(v_.size() - 1);
-  auto set = [&](Global g, std::initializer_list<float> value) { grid_.set_uniform(g, {value.begin(), value.size()}); };
+  auto set = [&](Global g, std::initializer_list<float> value) {
+    grid_.set_uniform(g, {value.begin(), value.size()});
+  };
   set(Global::kdu, {du});
   set(Global::kdv, {dv});
   set(Global::kE, {0, 0, 0});
@@ -130,10 +137,14 @@ void Dicer::to_camera(slvm::Type type, float* planes, size_t count) {
   for (size_t e = 0; e < count; ++e, planes += 3 * pitch)
     for (size_t k = 0; k < grid_.points(); ++k) {
       std::array<float, 3> a{planes[k], planes[pitch + k], planes[2 * pitch + k]}, b;
-      if (type == slvm::Type::kPoint) b = slvm::transform_point(state_.object_to_camera, a);
-      else if (type == slvm::Type::kVector) b = slvm::transform_vector(state_.object_to_camera, a);
-      else b = slvm::transform_normal(state_.object_to_camera, a);
-      for (size_t c = 0; c < 3; ++c) planes[c * pitch + k] = b[c];
+      if (type == slvm::Type::kPoint)
+        b = slvm::transform_point(state_.object_to_camera, a);
+      else if (type == slvm::Type::kVector)
+        b = slvm::transform_vector(state_.object_to_camera, a);
+      else
+        b = slvm::transform_normal(state_.object_to_camera, a);
+      for (size_t c = 0; c < 3; ++c)
+        planes[c * pitch + k] = b[c];
     }
 }
 
@@ -144,7 +155,8 @@ bool Dicer::set_predefined(const PatchVar& var) {
     one.elements = 0;
     for (size_t c = 0; c < 2; ++c) {
       one.values.clear();
-      for (size_t i = c; i < var.values.size(); i += 2) one.values.push_back(var.values[i]);
+      for (size_t i = c; i < var.values.size(); i += 2)
+        one.values.push_back(var.values[i]);
       interpolate(one, u_, v_, grid_.varying(c == 0 ? Global::ks : Global::kt), grid_.pitch());
     }
     return true;
@@ -164,8 +176,8 @@ bool Dicer::set_predefined(const PatchVar& var) {
 void Dicer::set_primvar(const PatchVar& var) {
   if (set_predefined(var)) return;
   // Constant values cost nothing as uniforms; geometric ones and matrices need the transformation below.
-  bool plain = var.type == slvm::Type::kFloat || var.type == slvm::Type::kColor || var.type == slvm::Type::kString ||
-               var.type == slvm::Type::kMatrix;
+  bool plain = var.type == slvm::Type::kFloat || var.type == slvm::Type::kColor ||
+               var.type == slvm::Type::kString || var.type == slvm::Type::kMatrix;
   if (var.interpolation == Interpolation::kConstant && plain) {
     slvm::Value value{var.type, var.elements, var.values, var.strings};
     grid_.add_uniform_primvar(var.name, value, *context_.strings);
@@ -199,7 +211,8 @@ void renew_geometry(const Camera& camera, slvm::Grid& grid) {
     for (size_t i = 0; i < nu; ++i) {
       size_t k = j * nu + i;
       // Central differences inside, one-sided ones at the edges.
-      size_t i0 = i > 0 ? i - 1 : i, i1 = i + 1 < nu ? i + 1 : i, j0 = j > 0 ? j - 1 : j, j1 = j + 1 < nv ? j + 1 : j;
+      size_t i0 = i > 0 ? i - 1 : i, i1 = i + 1 < nu ? i + 1 : i, j0 = j > 0 ? j - 1 : j,
+             j1 = j + 1 < nv ? j + 1 : j;
       Vec3 along_u = (P.get(j * nu + i1) - P.get(j * nu + i0)) / (static_cast<float>(i1 - i0) * du);
       Vec3 along_v = (P.get(j1 * nu + i) - P.get(j0 * nu + i)) / (static_cast<float>(j1 - j0) * dv);
       dPdu.set(k, along_u);

@@ -1,5 +1,5 @@
-// The dice half of REYES: a piece of a primitive becomes a shading grid in camera space, with all the variables a
-// shader can read.
+// The dice half of REYES: a piece of a primitive becomes a shading grid in camera space, with all the
+// variables a shader can read.
 #pragma once
 
 #include "render/prims/split.h"
@@ -18,11 +18,13 @@ struct DiceContext {
   float time = 0, dtime = 0;
 };
 
-/// Fills `grid` (its old content is dropped) with the lattice of `task`. `id` becomes part of the seed of random().
-void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context, slvm::Grid& grid);
+/// Fills `grid` (its old content is dropped) with the lattice of `task`. `id` becomes part of the seed of
+/// random().
+void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context,
+          slvm::Grid& grid);
 
-/// After P was moved: I, Ng, dPdu and dPdv anew, the latter from differences of P. N stays what the displacement
-/// shader left.
+/// After P was moved: I, Ng, dPdu and dPdv anew, the latter from differences of P. N stays what the
+/// displacement shader left.
 void renew_geometry(const Camera& camera, slvm::Grid& grid);
 
 /// Whether every point faces away from the eye, by Ng.

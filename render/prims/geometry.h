@@ -1,6 +1,6 @@
-// What every surface is to the renderer: a map from (u,v) in the unit square to points of object space, with a bound
-// for any part of the square. Splitting a surface is splitting its rectangle; dicing is evaluating a lattice of it.
-// Read next: primitive.h, split.h, dice.h.
+// What every surface is to the renderer: a map from (u,v) in the unit square to points of object space, with
+// a bound for any part of the square. Splitting a surface is splitting its rectangle; dicing is evaluating a
+// lattice of it. Read next: primitive.h, split.h, dice.h.
 #pragma once
 
 #include "render/state/math.h"
@@ -17,8 +17,8 @@ struct UvRect {
   float vmid() const { return 0.5f * (v0 + v1); }
 };
 
-/// Points of a lattice, u fastest, in object space. N is along dPdu x dPdv, of any length, and never zero where the
-/// surface has a tangent plane (poles and collapsed edges included).
+/// Points of a lattice, u fastest, in object space. N is along dPdu x dPdv, of any length, and never zero
+/// where the surface has a tangent plane (poles and collapsed edges included).
 struct SurfaceLattice {
   std::vector<Vec3> P, dPdu, dPdv, N;
   void resize(size_t points) {

@@ -17,7 +17,8 @@ public:
   Box bound(const UvRect& r) const override {
     Box box;
     for (float v : {r.v0, r.v1})
-      for (float u : {r.u0, r.u1}) box.add(point(u, v));
+      for (float u : {r.u0, r.u1})
+        box.add(point(u, v));
     return box;
   }
 
@@ -45,7 +46,8 @@ private:
     Vec3 n = glm::cross(du(v), dv(u));
     float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]);
     // At a collapsed edge: the normal a little inside.
-    if (glm::length(n) < kCollapsed * scale) n = glm::cross(du(v + (0.5f - v) * 0.01f), dv(u + (0.5f - u) * 0.01f));
+    if (glm::length(n) < kCollapsed * scale)
+      n = glm::cross(du(v + (0.5f - v) * 0.01f), dv(u + (0.5f - u) * 0.01f));
     return n;
   }
 
@@ -66,7 +68,8 @@ void restrict_cubic(Vec3* p, size_t stride, float t0, float t1) {
     return glm::mix(glm::mix(q0, q1, b), glm::mix(q1, q2, b), c);
   };
   Vec3 r[4] = {blossom(t0, t0, t0), blossom(t0, t0, t1), blossom(t0, t1, t1), blossom(t1, t1, t1)};
-  for (size_t i = 0; i < 4; ++i) p[i * stride] = r[i];
+  for (size_t i = 0; i < 4; ++i)
+    p[i * stride] = r[i];
 }
 
 class BicubicPatch final : public Geometry {
@@ -75,10 +78,13 @@ public:
 
   Box bound(const UvRect& r) const override {
     std::array<Vec3, 16> q = p_;
-    for (size_t row = 0; row < 4; ++row) restrict_cubic(&q[4 * row], 1, r.u0, r.u1);
-    for (size_t column = 0; column < 4; ++column) restrict_cubic(&q[column], 4, r.v0, r.v1);
+    for (size_t row = 0; row < 4; ++row)
+      restrict_cubic(&q[4 * row], 1, r.u0, r.u1);
+    for (size_t column = 0; column < 4; ++column)
+      restrict_cubic(&q[column], 4, r.v0, r.v1);
     Box box;
-    for (Vec3 p : q) box.add(p);
+    for (Vec3 p : q)
+      box.add(p);
     return box;
   }
 
@@ -107,7 +113,8 @@ private:
   Vec3 sum(const std::array<float, 4>& a, const std::array<float, 4>& b) const {
     Vec3 s(0.0f);
     for (size_t j = 0; j < 4; ++j)
-      for (size_t i = 0; i < 4; ++i) s += p_[4 * j + i] * (a[i] * b[j]);
+      for (size_t i = 0; i < 4; ++i)
+        s += p_[4 * j + i] * (a[i] * b[j]);
     return s;
   }
   Tangents tangents(float u, float v) const {
@@ -141,13 +148,18 @@ void convert_to_bezier(const CubicBasis& u, const CubicBasis& v, float* values, 
   auto convert = [&](const Matrix4& basis, float* at, size_t step) {
     float in[4], out[4] = {};
     Matrix4 m = from_bezier * basis;
-    for (int i = 0; i < 4; ++i) in[i] = at[static_cast<size_t>(i) * step];
     for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) out[i] += m(i, j) * in[j];
-    for (int i = 0; i < 4; ++i) at[static_cast<size_t>(i) * step] = out[i];
+      in[i] = at[static_cast<size_t>(i) * step];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        out[i] += m(i, j) * in[j];
+    for (int i = 0; i < 4; ++i)
+      at[static_cast<size_t>(i) * step] = out[i];
   };
-  for (size_t k = 0; k < 4; ++k) convert(u.matrix, values + 4 * k * stride, stride);
-  for (size_t k = 0; k < 4; ++k) convert(v.matrix, values + k * stride, 4 * stride);
+  for (size_t k = 0; k < 4; ++k)
+    convert(u.matrix, values + 4 * k * stride, stride);
+  for (size_t k = 0; k < 4; ++k)
+    convert(v.matrix, values + k * stride, 4 * stride);
 }
 
 } // namespace render

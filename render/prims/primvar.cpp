@@ -7,14 +7,18 @@ namespace render {
 
 namespace {
 
-std::array<float, 4> linear_weights(float t) { return {1 - t, t, 0, 0}; }
+std::array<float, 4> linear_weights(float t) {
+  return {1 - t, t, 0, 0};
+}
 
 } // namespace
 
-void interpolate(const PatchVar& var, std::span<const float> u, std::span<const float> v, float* out, size_t pitch) {
+void interpolate(const PatchVar& var, std::span<const float> u, std::span<const float> v, float* out,
+                 size_t pitch) {
   size_t width = var.width(), points = u.size() * v.size();
   if (var.interpolation == Interpolation::kConstant) {
-    for (size_t c = 0; c < width; ++c) std::fill_n(out + c * pitch, points, var.values[c]);
+    for (size_t c = 0; c < width; ++c)
+      std::fill_n(out + c * pitch, points, var.values[c]);
     return;
   }
   bool cubic = var.interpolation == Interpolation::kBicubic;
@@ -26,7 +30,8 @@ void interpolate(const PatchVar& var, std::span<const float> u, std::span<const 
       for (size_t c = 0; c < width; ++c) {
         float sum = 0;
         for (size_t j = 0; j < side; ++j)
-          for (size_t i = 0; i < side; ++i) sum += wu[i] * wv[j] * var.values[(side * j + i) * width + c];
+          for (size_t i = 0; i < side; ++i)
+            sum += wu[i] * wv[j] * var.values[(side * j + i) * width + c];
         out[c * pitch + k] = sum;
       }
       ++k;

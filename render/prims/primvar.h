@@ -21,8 +21,8 @@ enum class Interpolation : uint8_t {
   kBicubic,  ///< 16 Bezier values
 };
 
-/// A variable of one surface patch. Geometric values are in object space; Cs, Os, N, s, t and st replace what the
-/// attributes and the geometry give.
+/// A variable of one surface patch. Geometric values are in object space; Cs, Os, N, s, t and st replace what
+/// the attributes and the geometry give.
 struct PatchVar {
   std::string name;
   slvm::Type type = slvm::Type::kFloat;
@@ -35,6 +35,7 @@ struct PatchVar {
 };
 
 /// Values of `var` on a lattice: component c of point k at out[c * pitch + k].
-void interpolate(const PatchVar& var, std::span<const float> u, std::span<const float> v, float* out, size_t pitch);
+void interpolate(const PatchVar& var, std::span<const float> u, std::span<const float> v, float* out,
+                 size_t pitch);
 
 } // namespace render

@@ -13,13 +13,16 @@ void cos_range(float a, float b, float& low, float& high) {
   low = std::min(ca, cb);
   high = std::max(ca, cb);
   float turn = 2 * kPi;
-  if (std::floor(b / turn) >= std::ceil(a / turn)) high = 1;                            // passes a multiple of 2 pi
-  if (std::floor((b - kPi) / turn) >= std::ceil((a - kPi) / turn)) low = -1;            // passes an odd multiple of pi
+  if (std::floor(b / turn) >= std::ceil(a / turn)) high = 1;                 // passes a multiple of 2 pi
+  if (std::floor((b - kPi) / turn) >= std::ceil((a - kPi) / turn)) low = -1; // passes an odd multiple of pi
 }
 
-void sin_range(float a, float b, float& low, float& high) { cos_range(a - kPi / 2, b - kPi / 2, low, high); }
+void sin_range(float a, float b, float& low, float& high) {
+  cos_range(a - kPi / 2, b - kPi / 2, low, high);
+}
 
-/// A range of the profile: every point of it lies on a segment between a turned `a` and a turned `b`, at zmin to zmax.
+/// A range of the profile: every point of it lies on a segment between a turned `a` and a turned `b`, at zmin
+/// to zmax.
 struct ProfileRange {
   Vec2 a, b;
   float zmin, zmax;
@@ -86,8 +89,7 @@ struct ParaboloidProfile {
   }
 };
 
-template <class Profile>
-class Quadric final : public Geometry {
+template <class Profile> class Quadric final : public Geometry {
 public:
   Quadric(Profile profile, float thetamax) : profile_(profile), thetamax_(radians(thetamax)) {}
 
@@ -112,7 +114,8 @@ public:
   void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
     out.resize(u.size() * v.size());
     std::vector<Vec2> turns(u.size()); // cosine and sine
-    for (size_t i = 0; i < u.size(); ++i) turns[i] = {std::cos(u[i] * thetamax_), std::sin(u[i] * thetamax_)};
+    for (size_t i = 0; i < u.size(); ++i)
+      turns[i] = {std::cos(u[i] * thetamax_), std::sin(u[i] * thetamax_)};
     size_t k = 0;
     for (float vj : v) {
       ProfilePoint p = profile_.at(vj);
@@ -143,8 +146,7 @@ private:
   float thetamax_;
 };
 
-template <class Profile>
-GeometryResult finish(const Profile& profile, float thetamax) {
+template <class Profile> GeometryResult finish(const Profile& profile, float thetamax) {
   if (thetamax == 0) return slvm::Error{"thetamax is zero: there is no surface"};
   return std::shared_ptr<const Geometry>(std::make_shared<Quadric<Profile>>(profile, thetamax));
 }
@@ -154,7 +156,8 @@ GeometryResult finish(const Profile& profile, float thetamax) {
 GeometryResult make_sphere(float radius, float zmin, float zmax, float thetamax) {
   if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
   float size = std::abs(radius);
-  float low = std::asin(std::clamp(zmin / size, -1.0f, 1.0f)), high = std::asin(std::clamp(zmax / size, -1.0f, 1.0f));
+  float low = std::asin(std::clamp(zmin / size, -1.0f, 1.0f)),
+        high = std::asin(std::clamp(zmax / size, -1.0f, 1.0f));
   if (low == high) return slvm::Error{"zmin equals zmax: there is no surface"};
   // A negative radius mirrors the profile: the same sphere, inside out.
   if (radius < 0) return finish(SphereProfile{radius, -low, -high}, thetamax);

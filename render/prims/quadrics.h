@@ -1,5 +1,6 @@
-// The seven quadrics. All are surfaces of revolution about z: a profile q(v) in the xz plane (a line in space for the
-// hyperboloid) turned by u * thetamax. Parameters and parameterisation: RISpec 3.2, section 5.2; angles in degrees.
+// The seven quadrics. All are surfaces of revolution about z: a profile q(v) in the xz plane (a line in space
+// for the hyperboloid) turned by u * thetamax. Parameters and parameterisation: RISpec 3.2, section 5.2;
+// angles in degrees.
 #pragma once
 
 #include "render/prims/geometry.h"

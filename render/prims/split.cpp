@@ -1,6 +1,8 @@
 // Bound, cull, split.
 #include "render/prims/split.h"
 
+#include "render/prims/stitch.h"
+
 #include <cmath>
 
 namespace render {
@@ -23,7 +25,8 @@ struct Extent {
 
 class Splitter {
 public:
-  Splitter(const Primitive& primitive, uint32_t index, const SplitSettings& settings, std::vector<GridTask>& out)
+  Splitter(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
+           std::vector<GridTask>& out)
       : primitive_(primitive), index_(index), settings_(settings), camera_(*settings.camera), out_(out),
         step_(std::sqrt(primitive.attributes().shading_rate)) {}
 
@@ -41,6 +44,7 @@ private:
   bool outside_frustum(const Box& box) const;
   void raster_bound(const Box& box, GridTask& task) const;
   Extent measure(const UvRect& rect, bool in_raster) const;
+  int segments(float wanted, float interval) const;
   void split(const Piece& piece, bool along_u, int eye_splits);
 
   const Primitive& primitive_;
@@ -55,9 +59,11 @@ private:
 void Splitter::visit(const Piece& piece) {
   Box box = primitive_.camera_bound(piece.rect);
   // A box that is not a number is of no use to anyone; the negated test catches it.
-  if (!(box.max.z >= camera_.near_plane()) || !(box.min.z <= camera_.far_plane()) || outside_frustum(box)) return;
+  if (!(box.max.z >= camera_.near_plane()) || !(box.min.z <= camera_.far_plane()) || outside_frustum(box))
+    return;
 
-  // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the picture.
+  // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the
+  // picture.
   bool crosses_eye = camera_.perspective() && box.min.z < camera_.near_plane();
   if (crosses_eye && piece.eye_splits < settings_.eye_splits) {
     Extent e = measure(piece.rect, false);
@@ -77,23 +83,42 @@ void Splitter::visit(const Piece& piece) {
       return;
   }
   Extent e = measure(piece.rect, true);
-  float limit = static_cast<float>(settings_.grid_size);
-  float nu = std::clamp(std::ceil(e.u / step_), 1.0f, 1e6f) + 1, nv = std::clamp(std::ceil(e.v / step_), 1.0f, 1e6f) + 1;
-  bool too_small = piece.rect.u1 - piece.rect.u0 < kSmallest || piece.rect.v1 - piece.rect.v0 < kSmallest;
-  if (nu * nv > limit && !crosses_eye && !too_small) {
+  float width = piece.rect.u1 - piece.rect.u0, height = piece.rect.v1 - piece.rect.v0;
+  int nu = segments(e.u / step_, width), nv = segments(e.v / step_, height);
+  bool too_small = width < kSmallest || height < kSmallest;
+  if (nu * nv > settings_.grid_size && !crosses_eye && !too_small) {
     split(piece, nu >= nv, piece.eye_splits);
     return;
   }
-  if (nu * nv > limit) nu = nv = std::max(2.0f, std::floor(std::sqrt(limit)));
-  task.nu = static_cast<int>(nu);
-  task.nv = static_cast<int>(nv);
+  // What cannot be split any more is diced as finely as one grid allows.
+  while (nu * nv > settings_.grid_size)
+    (nu >= nv ? nu : nv) = std::max(nu, nv) / 2;
+  task.nu = nu + 1;
+  task.nv = nv + 1;
   out_.push_back(task);
+}
+
+/// Segments for a side that is `wanted` micropolygons long. Curved surfaces take powers of two, so that
+/// neighbouring grids can agree on their outlines (stitch.h); the side of a micropolygon is then 0.66 to 1.32
+/// of what was asked for.
+int Splitter::segments(float wanted, float interval) const {
+  constexpr int kMost = 1 << 14; // a product of two is still an int
+  if (primitive_.geometry->ruled())
+    return static_cast<int>(std::clamp(std::ceil(wanted), 1.0f, float{kMost}));
+  constexpr float kStretch = 1.32f;
+  int n = 1;
+  while (n < kMost &&
+         (static_cast<float>(n) * kStretch < wanted || interval > kOutlineInterval * static_cast<float>(n)))
+    n *= 2;
+  return n;
 }
 
 void Splitter::split(const Piece& piece, bool along_u, int eye_splits) {
   Piece a{piece.rect, eye_splits}, b{piece.rect, eye_splits};
-  if (along_u) a.rect.u1 = b.rect.u0 = piece.rect.umid();
-  else a.rect.v1 = b.rect.v0 = piece.rect.vmid();
+  if (along_u)
+    a.rect.u1 = b.rect.u0 = piece.rect.umid();
+  else
+    a.rect.v1 = b.rect.v0 = piece.rect.vmid();
   stack_.push_back(b);
   stack_.push_back(a);
 }

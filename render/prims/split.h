@@ -1,5 +1,6 @@
-// The bound-and-split half of REYES: cuts a primitive into pieces small enough to dice, and drops what the camera
-// cannot see. A piece is only a rectangle of the primitive's parameter square, so a frame's list of pieces is small.
+// The bound-and-split half of REYES: cuts a primitive into pieces small enough to dice, and drops what the
+// camera cannot see. A piece is only a rectangle of the primitive's parameter square, so a frame's list of
+// pieces is small.
 #pragma once
 
 #include "render/prims/primitive.h"
@@ -22,11 +23,12 @@ struct GridTask {
 struct SplitSettings {
   const Camera* camera = nullptr;
   Vec2 raster_min, raster_max; ///< the area samples can lie in
-  int grid_size = 256;
+  int grid_size = 256;         ///< micropolygons in a grid, at most
   int eye_splits = 10;
 };
 
-/// Appends the visible pieces of scene primitive `index`, in an order that depends on nothing but the arguments.
+/// Appends the visible pieces of scene primitive `index`, in an order that depends on nothing but the
+/// arguments.
 void split_primitive(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
                      std::vector<GridTask>& out);
 

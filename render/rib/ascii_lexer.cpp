@@ -9,10 +9,18 @@ namespace render {
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool is_octal(char c) { return c >= '0' && c <= '7'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+bool is_octal(char c) {
+  return c >= '0' && c <= '7';
+}
 
 } // namespace
 
@@ -31,7 +39,8 @@ void AsciiLexer::skip_blanks() {
     if (is_blank(text_[at_])) {
       advance();
     } else if (text_[at_] == '#') {
-      while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r') ++at_;
+      while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r')
+        ++at_;
     } else {
       return;
     }
@@ -76,7 +85,8 @@ void AsciiLexer::next(Token& token) {
 void AsciiLexer::read_word(Token& token) {
   token.kind = TokenKind::kWord;
   size_t begin = at_;
-  while (is_letter(peek()) || is_digit(peek())) ++at_;
+  while (is_letter(peek()) || is_digit(peek()))
+    ++at_;
   token.text = text_.substr(begin, at_ - begin);
 }
 
@@ -84,17 +94,20 @@ void AsciiLexer::read_number(Token& token) {
   size_t begin = at_;
   if (peek() == '+' || peek() == '-') ++at_;
   bool real = false;
-  while (is_digit(peek())) ++at_;
+  while (is_digit(peek()))
+    ++at_;
   if (peek() == '.') {
     real = true;
     ++at_;
-    while (is_digit(peek())) ++at_;
+    while (is_digit(peek()))
+      ++at_;
   }
   size_t exponent = peek(1) == '+' || peek(1) == '-' ? 2 : 1;
   if ((peek() == 'e' || peek() == 'E') && is_digit(peek(exponent))) {
     real = true;
     at_ += exponent;
-    while (is_digit(peek())) ++at_;
+    while (is_digit(peek()))
+      ++at_;
   }
   std::string_view digits = text_.substr(begin, at_ - begin);
   if (digits.front() == '+') digits.remove_prefix(1);
@@ -104,7 +117,8 @@ void AsciiLexer::read_number(Token& token) {
     token.kind = TokenKind::kError;
     token.text = fmt::format("the number {} is out of range", digits);
   } else if (is_letter(peek())) {
-    while (is_letter(peek()) || is_digit(peek())) ++at_;
+    while (is_letter(peek()) || is_digit(peek()))
+      ++at_;
     token.kind = TokenKind::kError;
     token.text = fmt::format("'{}' is neither a number nor a request", text_.substr(begin, at_ - begin));
   }
@@ -130,13 +144,15 @@ void AsciiLexer::read_string(Token& token) {
   token.text = "this string is not closed before the end of the file";
 }
 
-/// The part after a backslash. Octal codes take up to three digits; an unknown escape is the character itself.
+/// The part after a backslash. Octal codes take up to three digits; an unknown escape is the character
+/// itself.
 void AsciiLexer::read_escape(std::string& out) {
   if (at_ >= text_.size()) return;
   char c = peek();
   if (is_octal(c)) {
     int code = 0;
-    for (int i = 0; i < 3 && is_octal(peek()); ++i) code = code * 8 + (text_[at_++] - '0');
+    for (int i = 0; i < 3 && is_octal(peek()); ++i)
+      code = code * 8 + (text_[at_++] - '0');
     out += static_cast<char>(code & 0xff);
     return;
   }
@@ -162,11 +178,12 @@ void AsciiLexer::read_garbage(Token& token) {
                      : fmt::format("byte 0x{:02x} has no meaning in an ASCII RIB file", byte);
   // One message for a whole run of such bytes.
   auto is_known = [](char c) {
-    return is_blank(c) || is_letter(c) || is_digit(c) || c == '[' || c == ']' || c == '"' || c == '#' || c == '-' ||
-           c == '+' || c == '.';
+    return is_blank(c) || is_letter(c) || is_digit(c) || c == '[' || c == ']' || c == '"' || c == '#' ||
+           c == '-' || c == '+' || c == '.';
   };
   ++at_;
-  while (at_ < text_.size() && !is_known(peek())) ++at_;
+  while (at_ < text_.size() && !is_known(peek()))
+    ++at_;
 }
 
 } // namespace render

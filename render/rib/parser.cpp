@@ -1,4 +1,5 @@
-// The RIB parser. One loop over requests; parse_argument does the kinds of requests.def, parse_params the list after.
+// The RIB parser. One loop over requests; parse_argument does the kinds of requests.def, parse_params the
+// list after.
 #include "render/rib/parser.h"
 
 #include "render/rib/ascii_lexer.h"
@@ -34,8 +35,7 @@ private:
   bool parse_int(const ArgumentInfo& info, std::vector<int>& out);
   bool parse_string(const ArgumentInfo& info, std::vector<std::string>& out);
   bool parse_floats(const ArgumentInfo& info, std::vector<float>& out);
-  template <class ParseOne>
-  bool parse_array(const ArgumentInfo& info, bool bare_ok, ParseOne parse_one);
+  template <class ParseOne> bool parse_array(const ArgumentInfo& info, bool bare_ok, ParseOne parse_one);
   bool parse_params();
   bool parse_value(Param& param);
 
@@ -50,8 +50,10 @@ private:
 void Parser::run() {
   while (token_.kind != TokenKind::kEnd) {
     if (token_.kind != TokenKind::kWord) {
-      if (token_.kind == TokenKind::kError) diagnostics_.error(token_.where, token_.text);
-      else diagnostics_.error(token_.where, fmt::format("expected a request, found {}", found()));
+      if (token_.kind == TokenKind::kError)
+        diagnostics_.error(token_.where, token_.text);
+      else
+        diagnostics_.error(token_.where, fmt::format("expected a request, found {}", found()));
       take();
       recover();
       continue;
@@ -66,15 +68,18 @@ void Parser::run() {
       continue;
     }
     take();
-    if (parse_request(*info_)) target_.request(call_);
-    else recover();
+    if (parse_request(*info_))
+      target_.request(call_);
+    else
+      recover();
   }
 }
 
-/// Skips to a request's name. Unknown words stop only outside of argument lists, where run() names them; a word
-/// after an error is more likely a stray argument unless it is a known name.
+/// Skips to a request's name. Unknown words stop only outside of argument lists, where run() names them; a
+/// word after an error is more likely a stray argument unless it is a known name.
 void Parser::recover() {
-  while (token_.kind != TokenKind::kEnd && !(token_.kind == TokenKind::kWord && find_request(token_.text))) take();
+  while (token_.kind != TokenKind::kEnd && !(token_.kind == TokenKind::kWord && find_request(token_.text)))
+    take();
 }
 
 bool Parser::fail(std::string text) {
@@ -90,7 +95,8 @@ bool Parser::fail_expected(std::string_view what) {
 std::string Parser::found() const {
   switch (token_.kind) {
   case TokenKind::kEnd: return "the end of the file";
-  case TokenKind::kWord: return find_request(token_.text) ? "the request " + token_.text : "'" + token_.text + "'";
+  case TokenKind::kWord:
+    return find_request(token_.text) ? "the request " + token_.text : "'" + token_.text + "'";
   case TokenKind::kInteger:
   case TokenKind::kReal: return fmt::format("the number {}", token_.number);
   case TokenKind::kString: return fmt::format("\"{}\"", token_.text.substr(0, 40));
@@ -105,10 +111,12 @@ std::string Parser::found() const {
 bool Parser::parse_request(const RequestInfo& info) {
   call_.id = info.id;
   call_.arguments.resize(info.arguments.size());
-  for (Argument& a : call_.arguments) a.clear();
+  for (Argument& a : call_.arguments)
+    a.clear();
   call_.params.clear();
   // "Sphere [1 -1 1 360]": all arguments as one array. A single array argument is parse_floats' own.
-  if (info.flat_count > 0 && info.arguments[0].kind != ArgumentKind::kFloats && token_.kind == TokenKind::kOpen)
+  if (info.flat_count > 0 && info.arguments[0].kind != ArgumentKind::kFloats &&
+      token_.kind == TokenKind::kOpen)
     return parse_flat(info) && parse_params();
   for (size_t i = 0; i < info.arguments.size(); ++i) {
     const ArgumentInfo& a = info.arguments[i];
@@ -158,7 +166,8 @@ bool Parser::parse_argument(const ArgumentInfo& info, Argument& out) {
   case ArgumentKind::kString: return parse_string(info, out.strings);
   case ArgumentKind::kFloats: return parse_floats(info, out.numbers);
   case ArgumentKind::kInts: return parse_array(info, false, [&] { return parse_int(info, out.ints); });
-  case ArgumentKind::kStrings: return parse_array(info, true, [&] { return parse_string(info, out.strings); });
+  case ArgumentKind::kStrings:
+    return parse_array(info, true, [&] { return parse_string(info, out.strings); });
   case ArgumentKind::kHandle:
     if (token_.kind == TokenKind::kInteger) {
       out.strings.push_back(fmt::format("{:.0f}", token_.number));
@@ -190,8 +199,9 @@ bool Parser::parse_int(const ArgumentInfo& info, std::vector<int>& out) {
   if (std::abs(value) > 2147483647.0)
     return fail(fmt::format("{:g} is too large for the integer '{}'", value, info.name));
   if (token_.kind == TokenKind::kReal)
-    diagnostics_.warning(token_.where, "rib-integer",
-                         fmt::format("{}: '{}' is an integer, written as a real number", info_->name, info.name));
+    diagnostics_.warning(
+        token_.where, "rib-integer",
+        fmt::format("{}: '{}' is an integer, written as a real number", info_->name, info.name));
   out.push_back(static_cast<int>(value));
   take();
   return true;
@@ -214,11 +224,12 @@ bool Parser::parse_floats(const ArgumentInfo& info, std::vector<float>& out) {
       if (!parse_float(info, out)) return false;
   } else {
     if (!token_.is_number()) return fail_expected(fmt::format("an array of numbers for '{}'", info.name));
-    while (token_.is_number()) parse_float(info, out);
+    while (token_.is_number())
+      parse_float(info, out);
   }
   if (info.count > 0 && static_cast<int>(out.size()) != info.count) {
-    diagnostics_.error(begin, fmt::format("{}: '{}' takes {} numbers, found {}", info_->name, info.name, info.count,
-                                          out.size()));
+    diagnostics_.error(begin, fmt::format("{}: '{}' takes {} numbers, found {}", info_->name, info.name,
+                                          info.count, out.size()));
     return false;
   }
   return true;
@@ -270,7 +281,8 @@ bool Parser::parse_value(Param& param) {
   }
   if (token_.kind != TokenKind::kOpen) return fail_expected(fmt::format("a value for \"{}\"", param.token));
   take();
-  while (is_value()) take_one();
+  while (is_value())
+    take_one();
   if (token_.kind != TokenKind::kClose)
     return fail_expected(fmt::format("a value of \"{}\" or ']'", param.token));
   if (!param.numbers.empty() && !param.strings.empty())

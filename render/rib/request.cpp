@@ -12,7 +12,8 @@ namespace render {
 
 namespace {
 
-/// One "kind:name?" or "kind[n]:name?" of a row; the rows are our own text, so anything unknown is a bug there.
+/// One "kind:name?" or "kind[n]:name?" of a row; the rows are our own text, so anything unknown is a bug
+/// there.
 ArgumentInfo parse_argument(std::string_view text) {
   ArgumentInfo info;
   if (text.ends_with('?')) {
@@ -77,8 +78,8 @@ struct Table {
 
   Table() {
     rows.reserve(kRequestCount);
-#define REQUEST(name, arguments, where, lacks, doc)                                                                    \
-  rows.push_back({RequestId::k##name, #name, {}, false, false, false, lacks, doc, 0});                                 \
+#define REQUEST(name, arguments, where, lacks, doc)                                                          \
+  rows.push_back({RequestId::k##name, #name, {}, false, false, false, lacks, doc, 0});                       \
   parse_row(rows.back(), arguments, where);
 #include "render/rib/requests.def"
 #undef REQUEST
@@ -96,16 +97,22 @@ const Table& table() {
 
 } // namespace
 
-std::span<const RequestInfo> requests() { return table().rows; }
+std::span<const RequestInfo> requests() {
+  return table().rows;
+}
 
-const RequestInfo& request_info(RequestId id) { return table().rows[static_cast<size_t>(id)]; }
+const RequestInfo& request_info(RequestId id) {
+  return table().rows[static_cast<size_t>(id)];
+}
 
 const RequestInfo* find_request(std::string_view name) {
   auto it = table().by_name.find(name);
   return it == table().by_name.end() ? nullptr : it->second;
 }
 
-std::string_view suggest_request(std::string_view name) { return slvm::nearest_name(name, table().names); }
+std::string_view suggest_request(std::string_view name) {
+  return slvm::nearest_name(name, table().names);
+}
 
 void Argument::clear() {
   numbers.clear();

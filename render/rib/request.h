@@ -1,5 +1,6 @@
-// The requests of the RenderMan interface as data: names, argument kinds and documentation come from requests.def;
-// RequestCall is one parsed call. Read next: ri_target.h (who receives calls), parser.h (who makes them).
+// The requests of the RenderMan interface as data: names, argument kinds and documentation come from
+// requests.def; RequestCall is one parsed call. Read next: ri_target.h (who receives calls), parser.h (who
+// makes them).
 #pragma once
 
 #include "slvm/support/source.h"
@@ -43,13 +44,13 @@ struct RequestInfo {
   RequestId id;
   std::string_view name;
   std::vector<ArgumentInfo> arguments;
-  bool params = false;     ///< a token-value list follows the arguments
-  bool outside = false;    ///< legal outside the world block
-  bool world = false;      ///< legal inside it
-  std::string_view lacks;  ///< what the picture lacks, empty when the request is carried out
+  bool params = false;    ///< a token-value list follows the arguments
+  bool outside = false;   ///< legal outside the world block
+  bool world = false;     ///< legal inside it
+  std::string_view lacks; ///< what the picture lacks, empty when the request is carried out
   std::string_view doc;
-  /// Numbers all arguments hold together when they are nothing but fixed counts of numbers, so that they may come
-  /// as one array; else 0.
+  /// Numbers all arguments hold together when they are nothing but fixed counts of numbers, so that they may
+  /// come as one array; else 0.
   int flat_count = 0;
 };
 

@@ -11,7 +11,8 @@ public:
   /// One request, its arguments complete and of the right kinds. The call is reused: copy what must last.
   virtual void request(const RequestCall& call) = 0;
   /// A word that is no request; its arguments have been skipped. `suggestion` may be empty.
-  virtual void unknown_request(std::string_view name, std::string_view suggestion, slvm::SourceRange where) = 0;
+  virtual void unknown_request(std::string_view name, std::string_view suggestion,
+                               slvm::SourceRange where) = 0;
 };
 
 } // namespace render

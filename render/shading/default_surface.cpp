@@ -11,8 +11,8 @@ void shade_by_default(slvm::Grid& grid) {
   using slvm::Global;
   float* Ci = grid.varying(Global::kCi);
   float* Oi = grid.varying(Global::kOi);
-  const slvm::Planes &N = grid.variable(Global::kN), &I = grid.variable(Global::kI), &Cs = grid.variable(Global::kCs),
-                     &Os = grid.variable(Global::kOs);
+  const slvm::Planes &N = grid.variable(Global::kN), &I = grid.variable(Global::kI),
+                     &Cs = grid.variable(Global::kCs), &Os = grid.variable(Global::kOs);
   size_t pitch = grid.pitch();
   for (size_t k = 0; k < grid.points(); ++k) {
     Vec3 n(N.get(0, k), N.get(1, k), N.get(2, k)), i(I.get(0, k), I.get(1, k), I.get(2, k));

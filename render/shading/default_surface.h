@@ -1,4 +1,5 @@
-// The surface of primitives that have none: Ci = Os Cs |N.I|, a headlight without highlights, so that geometry shows.
+// The surface of primitives that have none: Ci = Os Cs |N.I|, a headlight without highlights, so that
+// geometry shows.
 #pragma once
 
 #include "slvm/grid.h"

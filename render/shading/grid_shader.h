@@ -1,5 +1,5 @@
-// The hider's view of shading: displace and shade one diced grid, run the imager on finished pixels. Implemented over
-// the virtual machine in vm_shading.h; tests have simpler ones.
+// The hider's view of shading: displace and shade one diced grid, run the imager on finished pixels.
+// Implemented over the virtual machine in vm_shading.h; tests have simpler ones.
 #pragma once
 
 #include "render/prims/primitive.h"
@@ -19,8 +19,8 @@ public:
   virtual bool displace(const Primitive&, slvm::Grid&) = 0;
   /// Sets Ci and Oi.
   virtual void shade(const Primitive&, slvm::Grid&) = 0;
-  /// A variable of the grid just shaded, by name: predefined, primitive variable, or output of one of its shaders.
-  /// Null: nothing has it.
+  /// A variable of the grid just shaded, by name: predefined, primitive variable, or output of one of its
+  /// shaders. Null: nothing has it.
   virtual const slvm::Planes* output(const Primitive&, const slvm::Grid&, std::string_view name) = 0;
   /// Runs the imager on pixels: P, Ci, Oi and alpha are set and the latter three may change.
   virtual void image(const ShaderRequest&, slvm::Grid&) = 0;

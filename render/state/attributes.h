@@ -1,5 +1,5 @@
-// Everything that may change from primitive to primitive. Plain data, defaults of the RISpec; shared between primitives
-// and copied when a request changes it.
+// Everything that may change from primitive to primitive. Plain data, defaults of the RISpec; shared between
+// primitives and copied when a request changes it.
 #pragma once
 
 #include "render/state/math.h"
@@ -14,8 +14,8 @@
 
 namespace render {
 
-/// Which side is the outside: that of the primitive's own definition, the other, or absolutely by handedness of
-/// dPdu x dPdv in camera space.
+/// Which side is the outside: that of the primitive's own definition, the other, or absolutely by handedness
+/// of dPdu x dPdv in camera space.
 enum class Orientation : uint8_t { kOutside, kInside, kLeftHanded, kRightHanded };
 
 /// A cubic basis: value = [t^3 t^2 t 1] M [p0 p1 p2 p3].

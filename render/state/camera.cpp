@@ -30,12 +30,15 @@ Matrix4 projection_matrix(const Options& o) {
   return m;
 }
 
-/// Pixels from ceil(res * min) to ceil(res * max - 1), clamped to the frame (RISpec 3.2, 4.1.2).
+/// Pixels from ceil(res * min) to ceil(res * max - 1), clamped to the frame (RISpec 3.2, 4.1.2). A little
+/// less than a pixel's thousandth is forgiven, so that 0.3 of 90 pixels is 27 although the nearest float to
+/// 0.3 is larger.
 void crop_range(int res, float low, float high, int& begin, int& end) {
-  auto clamp = [&](float x) { return static_cast<int>(std::clamp(x, 0.0f, static_cast<float>(res))); };
+  constexpr float kSlack = 1e-3f;
   auto size = static_cast<float>(res);
-  begin = clamp(std::ceil(size * low));
-  end = clamp(std::ceil(size * high - 1) + 1);
+  auto edge = [&](float x) { return static_cast<int>(std::clamp(std::ceil(size * x - kSlack), 0.0f, size)); };
+  begin = edge(low);
+  end = edge(high); // ceil(x - 1) + 1 is ceil(x)
 }
 
 } // namespace

@@ -23,7 +23,8 @@ public:
   Vec2 project(Vec3 p) const {
     const auto& m = to_raster_.m;
     float w = p.x * m[3] + p.y * m[7] + p.z * m[11] + m[15];
-    return {(p.x * m[0] + p.y * m[4] + p.z * m[8] + m[12]) / w, (p.x * m[1] + p.y * m[5] + p.z * m[9] + m[13]) / w};
+    return {(p.x * m[0] + p.y * m[4] + p.z * m[8] + m[12]) / w,
+            (p.x * m[1] + p.y * m[5] + p.z * m[9] + m[13]) / w};
   }
   bool perspective() const { return perspective_; }
   /// The eye: the origin (also for orthographic cameras, where I is (0,0,z)).

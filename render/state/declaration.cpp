@@ -98,7 +98,8 @@ std::vector<std::string_view> split_words(std::string_view text) {
     }
     size_t begin = i++;
     if (text[begin] != '[' && text[begin] != ']')
-      while (i < text.size() && !is_blank(text[i]) && text[i] != '[' && text[i] != ']') ++i;
+      while (i < text.size() && !is_blank(text[i]) && text[i] != '[' && text[i] != ']')
+        ++i;
     words.push_back(text.substr(begin, i - begin));
   }
   return words;
@@ -107,7 +108,8 @@ std::vector<std::string_view> split_words(std::string_view text) {
 constexpr uint32_t kMaxArrayLength = 1u << 20;
 
 /// "[class] [type] [[n]]" from `words`, leaving `at` after it.
-std::optional<slvm::Error> parse_declaration(const std::vector<std::string_view>& words, size_t& at, Declaration& d) {
+std::optional<slvm::Error> parse_declaration(const std::vector<std::string_view>& words, size_t& at,
+                                             Declaration& d) {
   if (at < words.size())
     if (auto storage = storage_class(words[at])) {
       d.storage = *storage;
@@ -133,7 +135,8 @@ std::string_view storage_class_name(StorageClass c) {
 }
 
 Declarations::Declarations() {
-  for (const Predeclared& p : kPredeclared) (void)declare(p.name, p.text);
+  for (const Predeclared& p : kPredeclared)
+    (void)declare(p.name, p.text);
 }
 
 slvm::Result<Declaration> Declarations::declare(std::string_view name, std::string_view text) {
@@ -156,7 +159,8 @@ slvm::Result<Declaration> Declarations::resolve(std::string_view token) const {
     auto it = names_.find(words[0]);
     if (it != names_.end()) return it->second;
     std::vector<std::string_view> known;
-    for (const auto& [name, d] : names_) known.push_back(name);
+    for (const auto& [name, d] : names_)
+      known.push_back(name);
     std::string_view near = slvm::nearest_name(words[0], known);
     std::string hint = near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near);
     return slvm::Error{fmt::format("\"{}\" is not declared{}", words[0], hint)};
@@ -170,7 +174,8 @@ slvm::Result<Declaration> Declarations::resolve(std::string_view token) const {
   return d;
 }
 
-slvm::Result<std::pair<std::string, slvm::Value>> loose_value(const Param& param, const Declarations& declarations) {
+slvm::Result<std::pair<std::string, slvm::Value>> loose_value(const Param& param,
+                                                              const Declarations& declarations) {
   slvm::Value value;
   auto declared = declarations.resolve(param.token);
   if (!declared) {
@@ -193,7 +198,8 @@ slvm::Result<std::pair<std::string, slvm::Value>> loose_value(const Param& param
   if (declared->hpoint) {
     value.numbers.clear();
     for (size_t i = 0; i + 3 < param.numbers.size(); i += 4)
-      for (size_t k = 0; k < 3; ++k) value.numbers.push_back(param.numbers[i + k] / param.numbers[i + 3]);
+      for (size_t k = 0; k < 3; ++k)
+        value.numbers.push_back(param.numbers[i + k] / param.numbers[i + 3]);
   }
   return std::pair{declared->name, value};
 }

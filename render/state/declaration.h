@@ -1,4 +1,5 @@
-// Types of tokens: what "Declare", inline declarations and the predeclared list say of the name in a token-value pair.
+// Types of tokens: what "Declare", inline declarations and the predeclared list say of the name in a
+// token-value pair.
 #pragma once
 
 #include "render/rib/request.h"
@@ -25,7 +26,9 @@ struct Declaration {
   bool hpoint = false;   ///< four numbers each in the file, divided by the fourth
 
   /// Numbers (or strings) of one value in the file.
-  int width() const { return (hpoint ? 4 : slvm::components(type)) * static_cast<int>(elements ? elements : 1); }
+  int width() const {
+    return (hpoint ? 4 : slvm::components(type)) * static_cast<int>(elements ? elements : 1);
+  }
 };
 
 /// The dictionary. Global and unscoped, as the RISpec has it.
@@ -34,8 +37,8 @@ public:
   Declarations(); ///< holds the predeclared names
   /// "[class] [type] [[n]]" for a name. The error says what is wrong with the text.
   slvm::Result<Declaration> declare(std::string_view name, std::string_view text);
-  /// A token as it stands in a parameter list: inline declaration or declared name. The error names the nearest
-  /// declared name.
+  /// A token as it stands in a parameter list: inline declaration or declared name. The error names the
+  /// nearest declared name.
   slvm::Result<Declaration> resolve(std::string_view token) const;
 
 private:
@@ -50,8 +53,9 @@ struct TypedParam {
   slvm::SourceRange where;
 };
 
-/// The value of an option or attribute: declared type if the token has one, else float or string by what was written.
-/// hpoints lose their fourth number. The error is that of an ill-formed inline declaration or a wrong count.
+/// The value of an option or attribute: declared type if the token has one, else float or string by what was
+/// written. hpoints lose their fourth number. The error is that of an ill-formed inline declaration or a
+/// wrong count.
 slvm::Result<std::pair<std::string, slvm::Value>> loose_value(const Param&, const Declarations&);
 
 } // namespace render

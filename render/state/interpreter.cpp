@@ -1,5 +1,6 @@
-// The dispatch of requests: which member function carries out which, where they are legal, recording and replaying.
-// The requests themselves: interpreter_blocks.cpp, _options.cpp, _attributes.cpp, _transforms.cpp, _geometry.cpp.
+// The dispatch of requests: which member function carries out which, where they are legal, recording and
+// replaying. The requests themselves: interpreter_blocks.cpp, _options.cpp, _attributes.cpp, _transforms.cpp,
+// _geometry.cpp.
 #include "render/state/interpreter.h"
 
 #include "render/rib/parser.h"
@@ -12,7 +13,7 @@
 namespace render {
 
 Interpreter::Interpreter(slvm::SourceManager& sources, slvm::Diagnostics& diagnostics,
-                         std::function<void(const Scene&)> render_world)
+                         std::function<void(Scene&)> render_world)
     : sources_(sources), diagnostics_(diagnostics), render_world_(std::move(render_world)),
       attributes_(std::make_shared<Attributes>()) {}
 
@@ -34,7 +35,8 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kObjectInstance, &I::object_instance);
     set(kArchiveBegin, &I::archive_begin), set(kArchiveEnd, &I::recording_end);
     set(kArchiveInstance, &I::archive_instance), set(kReadArchive, &I::read_archive);
-    set(kIfBegin, &I::if_begin), set(kElseIf, &I::else_branch), set(kElse, &I::else_branch), set(kIfEnd, &I::if_end);
+    set(kIfBegin, &I::if_begin), set(kElseIf, &I::else_branch), set(kElse, &I::else_branch),
+        set(kIfEnd, &I::if_end);
     set(kDeclare, &I::declare), set(kversion, &I::version), set(kBound, &I::accept);
 
     set(kFormat, &I::format), set(kFrameAspectRatio, &I::frame_aspect_ratio);
@@ -46,7 +48,8 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
 
     set(kAttribute, &I::attribute), set(kColor, &I::color), set(kOpacity, &I::opacity);
     set(kTextureCoordinates, &I::texture_coordinates);
-    set(kLightSource, &I::light_source), set(kAreaLightSource, &I::light_source), set(kIlluminate, &I::illuminate);
+    set(kLightSource, &I::light_source), set(kAreaLightSource, &I::light_source),
+        set(kIlluminate, &I::illuminate);
     set(kSurface, &I::shader), set(kDisplacement, &I::shader), set(kAtmosphere, &I::shader);
     set(kShadingRate, &I::shading_rate), set(kShadingInterpolation, &I::shading_interpolation);
     set(kMatte, &I::matte), set(kOrientation, &I::orientation);
@@ -55,9 +58,11 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kIdentity, &I::identity), set(kTransform, &I::transform), set(kConcatTransform, &I::concat_transform);
     set(kPerspective, &I::perspective), set(kTranslate, &I::translate), set(kRotate, &I::rotate);
     set(kScale, &I::scale), set(kSkew, &I::skew), set(kCoordinateSystem, &I::coordinate_system);
-    set(kScopedCoordinateSystem, &I::scoped_coordinate_system), set(kCoordSysTransform, &I::coord_sys_transform);
+    set(kScopedCoordinateSystem, &I::scoped_coordinate_system),
+        set(kCoordSysTransform, &I::coord_sys_transform);
 
-    for (RequestId r : {kSphere, kCone, kCylinder, kHyperboloid, kParaboloid, kDisk, kTorus}) set(r, &I::quadric);
+    for (RequestId r : {kSphere, kCone, kCylinder, kHyperboloid, kParaboloid, kDisk, kTorus})
+      set(r, &I::quadric);
     set(kPolygon, &I::polygon), set(kPointsPolygons, &I::points_polygons), set(kPatch, &I::patch);
     return h;
   }();
@@ -88,8 +93,10 @@ bool Interpreter::skipped(const RequestCall& call) {
 bool Interpreter::legal(const RequestCall& call) {
   const RequestInfo& info = call.info();
   if (in_world_ ? info.world : info.outside) return true;
-  if (in_world_) error(call, "options cannot change inside a world block; the request is skipped");
-  else error(call, "this belongs between WorldBegin and WorldEnd; the request is skipped");
+  if (in_world_)
+    error(call, "options cannot change inside a world block; the request is skipped");
+  else
+    error(call, "this belongs between WorldBegin and WorldEnd; the request is skipped");
   return false;
 }
 
@@ -115,7 +122,8 @@ void Interpreter::replay(const RequestCall& call, const std::vector<RequestCall>
     return;
   }
   ++depth_;
-  for (const RequestCall& c : calls) request(c);
+  for (const RequestCall& c : calls)
+    request(c);
   --depth_;
 }
 
@@ -161,16 +169,21 @@ void Interpreter::finish() {
     diagnostics_.error(blocks_.empty() ? slvm::SourceRange{} : blocks_.back().where,
                        fmt::format("{} \"{}\" is not closed by {}", request_info(recording_.begin).name,
                                    recording_.name, request_info(recording_.end).name));
-  for (const Block& b : blocks_) diagnostics_.error(b.where, "this block is not closed before the end of the file");
+  for (const Block& b : blocks_)
+    diagnostics_.error(b.where, "this block is not closed before the end of the file");
   if (in_world_) diagnostics_.error(blocks_.front().where, "nothing is rendered: WorldEnd is missing");
 }
 
-void Interpreter::unknown_request(std::string_view name, std::string_view suggestion, slvm::SourceRange where) {
+void Interpreter::unknown_request(std::string_view name, std::string_view suggestion,
+                                  slvm::SourceRange where) {
   std::string hint = suggestion.empty() ? "" : fmt::format("; did you mean {}?", suggestion);
-  warn_once(fmt::format("unknown {}", name), where, "rib-unknown", fmt::format("unknown request {}{}", name, hint));
+  warn_once(fmt::format("unknown {}", name), where, "rib-unknown",
+            fmt::format("unknown request {}{}", name, hint));
 }
 
-void Interpreter::error(const RequestCall& call, std::string_view text) { error_at(call.where, call, text); }
+void Interpreter::error(const RequestCall& call, std::string_view text) {
+  error_at(call.where, call, text);
+}
 
 void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std::string_view text) {
   diagnostics_.error(where, fmt::format("{}: {}", call.info().name, text));
@@ -180,7 +193,8 @@ void Interpreter::warn(const RequestCall& call, std::string_view text) {
   diagnostics_.warning(call.where, "rib", fmt::format("{}: {}", call.info().name, text));
 }
 
-void Interpreter::warn_once(std::string key, slvm::SourceRange where, std::string_view name, std::string text) {
+void Interpreter::warn_once(std::string key, slvm::SourceRange where, std::string_view name,
+                            std::string text) {
   if (warned_.insert(std::move(key)).second) diagnostics_.warning(where, name, std::move(text));
 }
 
@@ -194,7 +208,8 @@ void Interpreter::declare(const RequestCall& call) {
 void Interpreter::version(const RequestCall& call) {
   constexpr float kNewest = 3.045f;
   if (call.number(0) > kNewest)
-    warn_once("version", call.where, "rib", fmt::format("RIB version {:g} is newer than 3.04; read as 3.04", call.number(0)));
+    warn_once("version", call.where, "rib",
+              fmt::format("RIB version {:g} is newer than 3.04; read as 3.04", call.number(0)));
 }
 
 } // namespace render

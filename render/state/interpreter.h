@@ -1,5 +1,5 @@
-// The graphics state machine: receives requests, keeps options, attributes and transformations, and hands each world
-// block over as a Scene. One member function per request; requests.def says which are legal where.
+// The graphics state machine: receives requests, keeps options, attributes and transformations, and hands
+// each world block over as a Scene. One member function per request; requests.def says which are legal where.
 #pragma once
 
 #include "render/rib/ri_target.h"
@@ -19,10 +19,11 @@ struct ClassSizes {
 
 class Interpreter : public RiTarget {
 public:
-  /// Positions in diagnostics belong to `sources`, to which archives are added. `diagnostics` and `sources` must
-  /// outlive the interpreter. `render_world` is called at each WorldEnd.
+  /// Positions in diagnostics belong to `sources`, to which archives are added. `diagnostics` and `sources`
+  /// must outlive the interpreter. `render_world` is called at each WorldEnd; the scene is its to keep or
+  /// change.
   Interpreter(slvm::SourceManager& sources, slvm::Diagnostics& diagnostics,
-              std::function<void(const Scene&)> render_world);
+              std::function<void(Scene&)> render_world);
   ~Interpreter() override;
 
   void request(const RequestCall& call) override;
@@ -165,7 +166,7 @@ private:
 
   slvm::SourceManager& sources_;
   slvm::Diagnostics& diagnostics_;
-  std::function<void(const Scene&)> render_world_;
+  std::function<void(Scene&)> render_world_;
   Declarations declarations_;
   std::set<std::string> warned_;
 

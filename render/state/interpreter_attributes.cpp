@@ -25,7 +25,8 @@ void Interpreter::attribute(const RequestCall& call) {
     if (category == "identifier" && value->first == "name" && !value->second.strings.empty())
       edit().name = value->second.strings[0];
   }
-  if (category == "displacementbound") displacement_bound(call);
+  if (category == "displacementbound")
+    displacement_bound(call);
   else if (category != "user" && category != "identifier")
     warn_once("Attribute " + category, call.where, "rib-unsupported",
               fmt::format("Attribute \"{}\" has no effect yet (shaders can read its values)", category));
@@ -33,12 +34,16 @@ void Interpreter::attribute(const RequestCall& call) {
 
 void Interpreter::displacement_bound(const RequestCall& call) {
   if (const Param* sphere = call.find_param("sphere")) {
-    if (sphere->numbers.size() == 1 && sphere->numbers[0] >= 0) edit().displacement_sphere = sphere->numbers[0];
-    else error_at(sphere->where, call, "\"sphere\" takes one number, 0 or more");
+    if (sphere->numbers.size() == 1 && sphere->numbers[0] >= 0)
+      edit().displacement_sphere = sphere->numbers[0];
+    else
+      error_at(sphere->where, call, "\"sphere\" takes one number, 0 or more");
   }
   if (const Param* space = call.find_param("coordinatesystem")) {
-    if (space->strings.size() == 1) edit().displacement_space = space->strings[0];
-    else error_at(space->where, call, "\"coordinatesystem\" takes one string");
+    if (space->strings.size() == 1)
+      edit().displacement_space = space->strings[0];
+    else
+      error_at(space->where, call, "\"coordinatesystem\" takes one string");
   }
 }
 
@@ -54,7 +59,8 @@ void Interpreter::opacity(const RequestCall& call) {
 
 void Interpreter::texture_coordinates(const RequestCall& call) {
   auto& tc = edit().texture_coordinates;
-  for (int i = 0; i < 8; ++i) tc[static_cast<size_t>(i)] = call.number(i);
+  for (int i = 0; i < 8; ++i)
+    tc[static_cast<size_t>(i)] = call.number(i);
 }
 
 std::shared_ptr<ShaderRequest> Interpreter::make_shader(const RequestCall& call) {
@@ -88,7 +94,8 @@ void Interpreter::shader(const RequestCall& call) {
   Attributes& a = edit();
   switch (call.id) {
   case RequestId::kSurface:
-    // "null" as a surface is a shader that draws nothing, unlike no surface, which is drawn by the default one.
+    // "null" as a surface is a shader that draws nothing, unlike no surface, which is drawn by the default
+    // one.
     a.surface = shader ? shader : make_shader(call);
     break;
   case RequestId::kDisplacement: a.displacement = shader; break;
@@ -120,17 +127,24 @@ void Interpreter::illuminate(const RequestCall& call) {
 
 void Interpreter::shading_rate(const RequestCall& call) {
   constexpr float kFinest = 1e-4f;
-  if (call.number(0) > 0) edit().shading_rate = std::max(call.number(0), kFinest);
-  else error(call, "the shading rate must be positive");
+  if (call.number(0) > 0)
+    edit().shading_rate = std::max(call.number(0), kFinest);
+  else
+    error(call, "the shading rate must be positive");
 }
 
 void Interpreter::shading_interpolation(const RequestCall& call) {
-  if (call.text(0) == "smooth") edit().smooth_shading = true;
-  else if (call.text(0) == "constant") edit().smooth_shading = false;
-  else error(call, fmt::format("\"{}\" is not \"constant\" or \"smooth\"", call.text(0)));
+  if (call.text(0) == "smooth")
+    edit().smooth_shading = true;
+  else if (call.text(0) == "constant")
+    edit().smooth_shading = false;
+  else
+    error(call, fmt::format("\"{}\" is not \"constant\" or \"smooth\"", call.text(0)));
 }
 
-void Interpreter::matte(const RequestCall& call) { edit().matte = call.integer(0) != 0; }
+void Interpreter::matte(const RequestCall& call) {
+  edit().matte = call.integer(0) != 0;
+}
 
 void Interpreter::orientation(const RequestCall& call) {
   constexpr std::pair<std::string_view, Orientation> kNames[] = {{"outside", Orientation::kOutside},
@@ -156,8 +170,10 @@ void Interpreter::reverse_orientation(const RequestCall&) {
 }
 
 void Interpreter::sides(const RequestCall& call) {
-  if (call.integer(0) == 1 || call.integer(0) == 2) edit().sides = call.integer(0);
-  else error(call, "a surface has 1 or 2 sides");
+  if (call.integer(0) == 1 || call.integer(0) == 2)
+    edit().sides = call.integer(0);
+  else
+    error(call, "a surface has 1 or 2 sides");
 }
 
 namespace {
@@ -173,7 +189,8 @@ const NamedBasis* find_basis(std::string_view name) {
   static const NamedBasis kBases[] = {
       {"bezier", bezier_basis()},
       {"b-spline",
-       {{{-k6, 3 * k6, -3 * k6, k6, 3 * k6, -6 * k6, 3 * k6, 0, -3 * k6, 0, 3 * k6, 0, k6, 4 * k6, k6, 0}}, 1}},
+       {{{-k6, 3 * k6, -3 * k6, k6, 3 * k6, -6 * k6, 3 * k6, 0, -3 * k6, 0, 3 * k6, 0, k6, 4 * k6, k6, 0}},
+        1}},
       {"catmull-rom", {{{-.5f, 1.5f, -1.5f, .5f, 1, -2.5f, 2, -.5f, -.5f, 0, .5f, 0, 0, 1, 0, 0}}, 1}},
       {"hermite", {{{2, 1, -2, 1, -3, -2, 3, -1, 0, 1, 0, 0, 1, 0, 0, 0}}, 2}},
       {"power", {{}, 4}}};
@@ -193,9 +210,10 @@ void Interpreter::basis(const RequestCall& call) {
     } else if (const NamedBasis* named = find_basis(a.strings[0])) {
       basis.matrix = named->basis.matrix;
     } else {
-      error_at(a.where, call, fmt::format("unknown basis \"{}\"; known are bezier, b-spline, catmull-rom, hermite, "
-                                          "power, or 16 numbers",
-                                          a.strings[0]));
+      error_at(a.where, call,
+               fmt::format("unknown basis \"{}\"; known are bezier, b-spline, catmull-rom, hermite, "
+                           "power, or 16 numbers",
+                           a.strings[0]));
       return;
     }
     (side == 0 ? edit().ubasis : edit().vbasis) = basis;

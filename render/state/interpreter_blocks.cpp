@@ -18,14 +18,17 @@ void Interpreter::open(const RequestCall& call, BlockKind kind) {
   blocks_.push_back({kind, call.where, attributes_, ctm_, {}});
 }
 
-/// Restores what the innermost block of this kind saved. Blocks left open inside it are reported and closed too.
+/// Restores what the innermost block of this kind saved. Blocks left open inside it are reported and closed
+/// too.
 bool Interpreter::close(const RequestCall& call, BlockKind kind) {
   size_t at = blocks_.size();
-  while (at > 0 && blocks_[at - 1].kind != kind) --at;
+  while (at > 0 && blocks_[at - 1].kind != kind)
+    --at;
   std::string_view opener = kBlockNames[static_cast<size_t>(kind)];
   // A world or frame is never closed from inside by what is not its own end.
   bool crosses_world = false;
-  for (size_t i = at; i < blocks_.size(); ++i) crosses_world = crosses_world || blocks_[i].kind <= BlockKind::kWorld;
+  for (size_t i = at; i < blocks_.size(); ++i)
+    crosses_world = crosses_world || blocks_[i].kind <= BlockKind::kWorld;
   if (at == 0 || (crosses_world && kind > BlockKind::kWorld)) {
     error(call, fmt::format("there is no open {}; the request is skipped", opener));
     return false;
@@ -50,7 +53,9 @@ void Interpreter::frame_begin(const RequestCall& call) {
   options_.frame = call.integer(0);
 }
 
-void Interpreter::frame_end(const RequestCall& call) { close(call, BlockKind::kFrame); }
+void Interpreter::frame_end(const RequestCall& call) {
+  close(call, BlockKind::kFrame);
+}
 
 void Interpreter::world_begin(const RequestCall& call) {
   open(call, BlockKind::kWorld);
@@ -71,12 +76,24 @@ void Interpreter::world_end(const RequestCall& call) {
   scene_ = {};
 }
 
-void Interpreter::attribute_begin(const RequestCall& call) { open(call, BlockKind::kAttribute); }
-void Interpreter::attribute_end(const RequestCall& call) { close(call, BlockKind::kAttribute); }
-void Interpreter::transform_begin(const RequestCall& call) { open(call, BlockKind::kTransform); }
-void Interpreter::transform_end(const RequestCall& call) { close(call, BlockKind::kTransform); }
-void Interpreter::solid_begin(const RequestCall& call) { open(call, BlockKind::kSolid); }
-void Interpreter::solid_end(const RequestCall& call) { close(call, BlockKind::kSolid); }
+void Interpreter::attribute_begin(const RequestCall& call) {
+  open(call, BlockKind::kAttribute);
+}
+void Interpreter::attribute_end(const RequestCall& call) {
+  close(call, BlockKind::kAttribute);
+}
+void Interpreter::transform_begin(const RequestCall& call) {
+  open(call, BlockKind::kTransform);
+}
+void Interpreter::transform_end(const RequestCall& call) {
+  close(call, BlockKind::kTransform);
+}
+void Interpreter::solid_begin(const RequestCall& call) {
+  open(call, BlockKind::kSolid);
+}
+void Interpreter::solid_end(const RequestCall& call) {
+  close(call, BlockKind::kSolid);
+}
 
 void Interpreter::motion_begin(const RequestCall& call) {
   open(call, BlockKind::kMotion);
@@ -89,18 +106,21 @@ void Interpreter::motion_end(const RequestCall& call) {
 }
 
 void Interpreter::object_begin(const RequestCall& call) {
-  recording_ = {call.id, RequestId::kObjectEnd, call.text(0), 1, std::make_shared<std::vector<RequestCall>>()};
+  recording_ = {call.id, RequestId::kObjectEnd, call.text(0), 1,
+                std::make_shared<std::vector<RequestCall>>()};
 }
 
 void Interpreter::archive_begin(const RequestCall& call) {
-  recording_ = {call.id, RequestId::kArchiveEnd, call.text(0), 1, std::make_shared<std::vector<RequestCall>>()};
+  recording_ = {call.id, RequestId::kArchiveEnd, call.text(0), 1,
+                std::make_shared<std::vector<RequestCall>>()};
 }
 
 /// ObjectEnd and ArchiveEnd.
 void Interpreter::recording_end(const RequestCall& call) {
   if (recording_.depth == 0) {
     bool object = call.id == RequestId::kObjectEnd;
-    error(call, fmt::format("there is no open {}; the request is skipped", object ? "ObjectBegin" : "ArchiveBegin"));
+    error(call, fmt::format("there is no open {}; the request is skipped",
+                            object ? "ObjectBegin" : "ArchiveBegin"));
     return;
   }
   bool object = recording_.begin == RequestId::kObjectBegin;
@@ -133,7 +153,9 @@ void Interpreter::archive_instance(const RequestCall& call) {
   replay(call, *calls);
 }
 
-void Interpreter::if_begin(const RequestCall& call) { open(call, BlockKind::kCondition); }
+void Interpreter::if_begin(const RequestCall& call) {
+  open(call, BlockKind::kCondition);
+}
 
 /// The first branch was taken: everything up to the end of the condition is passed over.
 void Interpreter::else_branch(const RequestCall& call) {
@@ -144,6 +166,8 @@ void Interpreter::else_branch(const RequestCall& call) {
   skip_depth_ = 1;
 }
 
-void Interpreter::if_end(const RequestCall& call) { close(call, BlockKind::kCondition); }
+void Interpreter::if_end(const RequestCall& call) {
+  close(call, BlockKind::kCondition);
+}
 
 } // namespace render

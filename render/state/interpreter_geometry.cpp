@@ -24,7 +24,9 @@ size_t class_size(const ClassSizes& sizes, StorageClass c) {
   return 1;
 }
 
-bool interpolates(StorageClass c) { return c != StorageClass::kConstant && c != StorageClass::kUniform; }
+bool interpolates(StorageClass c) {
+  return c != StorageClass::kConstant && c != StorageClass::kUniform;
+}
 
 GeometryResult make_quadric(const RequestCall& c) {
   switch (c.id) {
@@ -61,7 +63,8 @@ std::vector<TypedParam> Interpreter::primitive_vars(const RequestCall& call, con
       continue;
     }
     if (text && interpolates(d.storage)) {
-      error_at(p.where, call, fmt::format("\"{}\" is a string and cannot be {}", d.name, storage_class_name(d.storage)));
+      error_at(p.where, call,
+               fmt::format("\"{}\" is a string and cannot be {}", d.name, storage_class_name(d.storage)));
       continue;
     }
     out.push_back({d, p.numbers, p.strings, p.where});
@@ -70,7 +73,8 @@ std::vector<TypedParam> Interpreter::primitive_vars(const RequestCall& call, con
 }
 
 /// Takes P (or Pw) out of the variables. False, with a message: there is none.
-bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam>& vars, std::vector<Vec3>& P) {
+bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam>& vars,
+                                 std::vector<Vec3>& P) {
   for (size_t i = 0; i < vars.size(); ++i) {
     const Declaration& d = vars[i].declaration;
     bool weighted = d.name == "Pw" && d.hpoint;
@@ -98,8 +102,10 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
     const std::string& name = attributes_->displacement_space;
     const auto& displacement = attributes_->displacement;
     Matrix4 m = ctm_;
-    if (name == "shader" && displacement) m = displacement->shader_to_camera;
-    else if (auto space = find_space(name)) m = *space;
+    if (name == "shader" && displacement)
+      m = displacement->shader_to_camera;
+    else if (auto space = find_space(name))
+      m = *space;
     float longest = 0;
     for (Vec3 axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
       longest = std::max(longest, glm::length(transform_vector(m, axis)));
@@ -147,7 +153,8 @@ void Interpreter::patch(const RequestCall& call) {
   const CubicBasis &ubasis = attributes_->ubasis, &vbasis = attributes_->vbasis;
   std::array<Vec3, 16> control;
   std::copy_n(P.begin(), 16, control.begin());
-  for (int c = 0; c < 3; ++c) convert_to_bezier(ubasis, vbasis, &control[0][c], 3);
+  for (int c = 0; c < 3; ++c)
+    convert_to_bezier(ubasis, vbasis, &control[0][c], 3);
   std::vector<TypedParam> simple;
   std::vector<PatchVar> vertex;
   for (const TypedParam& v : vars) {
@@ -161,7 +168,8 @@ void Interpreter::patch(const RequestCall& call) {
       PatchVar next = constant_var(v, i);
       var.values.insert(var.values.end(), next.values.begin(), next.values.end());
     }
-    for (size_t c = 0; c < width; ++c) convert_to_bezier(ubasis, vbasis, &var.values[c], width);
+    for (size_t c = 0; c < width; ++c)
+      convert_to_bezier(ubasis, vbasis, &var.values[c], width);
     var.interpolation = Interpolation::kBicubic;
     vertex.push_back(std::move(var));
   }
@@ -182,7 +190,8 @@ void Interpreter::polygon(const RequestCall& call) {
     return;
   }
   std::vector<int> vertices(n);
-  for (size_t i = 0; i < n; ++i) vertices[i] = static_cast<int>(i);
+  for (size_t i = 0; i < n; ++i)
+    vertices[i] = static_cast<int>(i);
   add_polygon({vertices, 0, 0}, P, vars, primitive_state(), scene_.primitives);
 }
 
@@ -211,7 +220,8 @@ void Interpreter::points_polygons(const RequestCall& call) {
   }
   size_t points = static_cast<size_t>(last) + 1;
   // Files often carry more points than the faces use: P decides, if it has enough.
-  if (const Param* p = call.find_param("P"); p && p->numbers.size() / 3 > points) points = p->numbers.size() / 3;
+  if (const Param* p = call.find_param("P"); p && p->numbers.size() / 3 > points)
+    points = p->numbers.size() / 3;
   std::vector<TypedParam> vars = primitive_vars(call, {counts.size(), points, points, corners});
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;

@@ -12,8 +12,8 @@ void Interpreter::format(const RequestCall& call) {
   constexpr int kMaxResolution = 1 << 16;
   for (int i : {0, 1})
     if (call.integer(i) > kMaxResolution) {
-      error(call, fmt::format("{} pixels are more than the {} an image may have in one direction", call.integer(i),
-                              kMaxResolution));
+      error(call, fmt::format("{} pixels are more than the {} an image may have in one direction",
+                              call.integer(i), kMaxResolution));
       return;
     }
   if (call.integer(0) > 0) options_.xres = call.integer(0);
@@ -22,20 +22,26 @@ void Interpreter::format(const RequestCall& call) {
 }
 
 void Interpreter::frame_aspect_ratio(const RequestCall& call) {
-  if (call.number(0) > 0) options_.frame_aspect = call.number(0);
-  else error(call, "the aspect ratio must be positive");
+  if (call.number(0) > 0)
+    options_.frame_aspect = call.number(0);
+  else
+    error(call, "the aspect ratio must be positive");
 }
 
 void Interpreter::screen_window(const RequestCall& call) {
   std::array w{call.number(0), call.number(1), call.number(2), call.number(3)};
-  if (w[0] == w[1] || w[2] == w[3]) error(call, "the window has no area");
-  else options_.screen_window = w;
+  if (w[0] == w[1] || w[2] == w[3])
+    error(call, "the window has no area");
+  else
+    options_.screen_window = w;
 }
 
 void Interpreter::crop_window(const RequestCall& call) {
   std::array c{call.number(0), call.number(1), call.number(2), call.number(3)};
-  if (c[0] >= c[1] || c[2] >= c[3]) error(call, "the window is empty; expected xmin < xmax and ymin < ymax");
-  else options_.crop = c;
+  if (c[0] >= c[1] || c[2] >= c[3])
+    error(call, "the window is empty; expected xmin < xmax and ymin < ymax");
+  else
+    options_.crop = c;
 }
 
 void Interpreter::projection(const RequestCall& call) {
@@ -52,7 +58,8 @@ void Interpreter::projection(const RequestCall& call) {
   for (const Param& p : call.params) {
     bool is_fov = call.find_param("fov") == &p;
     if (!is_fov) {
-      diagnostics_.warning(p.where, "rib-unused", fmt::format("Projection: \"{}\" has no meaning here", p.token));
+      diagnostics_.warning(p.where, "rib-unused",
+                           fmt::format("Projection: \"{}\" has no meaning here", p.token));
     } else if (p.numbers.size() != 1 || !(p.numbers[0] > 0) || !(p.numbers[0] < 180)) {
       error_at(p.where, call, "\"fov\" takes one number between 0 and 180 degrees");
     } else {
@@ -91,8 +98,9 @@ void Interpreter::pixel_samples(const RequestCall& call) {
 
 void Interpreter::pixel_filter(const RequestCall& call) {
   constexpr std::pair<std::string_view, FilterKind> kFilters[] = {
-      {"box", FilterKind::kBox},           {"triangle", FilterKind::kTriangle}, {"gaussian", FilterKind::kGaussian},
-      {"catmull-rom", FilterKind::kCatmullRom}, {"b-spline", FilterKind::kBSpline},  {"sinc", FilterKind::kSinc},
+      {"box", FilterKind::kBox},           {"triangle", FilterKind::kTriangle},
+      {"gaussian", FilterKind::kGaussian}, {"catmull-rom", FilterKind::kCatmullRom},
+      {"b-spline", FilterKind::kBSpline},  {"sinc", FilterKind::kSinc},
       {"mitchell", FilterKind::kMitchell}};
   constexpr float kWidest = 32;
   float x = call.number(1), y = call.number(2);
@@ -131,28 +139,38 @@ void Interpreter::quantize(const RequestCall& call) {
     error(call, "min is larger than max");
     return;
   }
-  if (call.text(0) == "rgba" || call.text(0) == "rgb" || call.text(0) == "a") options_.rgba = q;
-  else if (call.text(0) == "z") options_.z = q;
-  else warn(call, fmt::format("\"{}\" is not \"rgba\" or \"z\"; the request is ignored", call.text(0)));
+  if (call.text(0) == "rgba" || call.text(0) == "rgb" || call.text(0) == "a")
+    options_.rgba = q;
+  else if (call.text(0) == "z")
+    options_.z = q;
+  else
+    warn(call, fmt::format("\"{}\" is not \"rgba\" or \"z\"; the request is ignored", call.text(0)));
 }
 
 void Interpreter::display(const RequestCall& call) {
   DisplayRequest d{call.text(0), call.text(1), call.text(2), {}, call.where};
   constexpr std::string_view kModes[] = {"rgb", "rgba", "rgbz", "rgbaz", "a", "z", "az"};
-  auto is_mode = [&](const std::string& s) { return std::find(std::begin(kModes), std::end(kModes), s) != std::end(kModes); };
+  auto is_mode = [&](const std::string& s) {
+    return std::find(std::begin(kModes), std::end(kModes), s) != std::end(kModes);
+  };
   if (is_mode(d.type) && !is_mode(d.mode)) {
     error_at(call.arguments[1].where, call,
-             fmt::format("\"{0}\" is a mode; the type is missing, as in Display \"{1}\" \"tiff\" \"{0}\"", d.type, d.name));
+             fmt::format("\"{0}\" is a mode; the type is missing, as in Display \"{1}\" \"tiff\" \"{0}\"",
+                         d.type, d.name));
     return;
   }
   for (const Param& p : call.params) {
     auto value = loose_value(p, declarations_);
-    if (value) d.params[value->first] = value->second;
-    else error_at(p.where, call, value.error());
+    if (value)
+      d.params[value->first] = value->second;
+    else
+      error_at(p.where, call, value.error());
   }
   bool add = d.name.starts_with('+');
-  if (add) d.name.erase(0, 1);
-  else options_.displays.clear();
+  if (add)
+    d.name.erase(0, 1);
+  else
+    options_.displays.clear();
   options_.displays.push_back(std::move(d));
 }
 
@@ -194,7 +212,8 @@ void Interpreter::option(const RequestCall& call) {
     if (category == "shutter" && value->first == "offset" && value->second.numbers.size() == 1)
       options_.shutter_offset = value->second.numbers[0];
   }
-  if (category == "limits") limits(call);
+  if (category == "limits")
+    limits(call);
   else if (category != "user" && category != "shutter")
     warn_once("Option " + category, call.where, "rib-unsupported",
               fmt::format("Option \"{}\" has no effect yet (shaders can read its values)", category));

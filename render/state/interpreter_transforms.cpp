@@ -8,19 +8,25 @@
 
 namespace render {
 
-void Interpreter::identity(const RequestCall&) { ctm_ = in_world_ ? scene_.world_to_camera : Matrix4{}; }
+void Interpreter::identity(const RequestCall&) {
+  ctm_ = in_world_ ? scene_.world_to_camera : Matrix4{};
+}
 
 void Interpreter::transform(const RequestCall& call) {
   Matrix4 m = matrix_from(call.numbers(0));
   ctm_ = in_world_ ? m * scene_.world_to_camera : m;
 }
 
-void Interpreter::concat_transform(const RequestCall& call) { ctm_ = matrix_from(call.numbers(0)) * ctm_; }
+void Interpreter::concat_transform(const RequestCall& call) {
+  ctm_ = matrix_from(call.numbers(0)) * ctm_;
+}
 
 void Interpreter::perspective(const RequestCall& call) {
   float fov = call.number(0);
-  if (fov > 0 && fov < 180) ctm_ = perspective_transform(fov) * ctm_;
-  else error(call, "the field of view must be between 0 and 180 degrees");
+  if (fov > 0 && fov < 180)
+    ctm_ = perspective_transform(fov) * ctm_;
+  else
+    error(call, "the field of view must be between 0 and 180 degrees");
 }
 
 void Interpreter::translate(const RequestCall& call) {
@@ -42,16 +48,24 @@ void Interpreter::scale(const RequestCall& call) {
 void Interpreter::skew(const RequestCall& call) {
   auto m = render::skew(call.number(0), {call.number(1), call.number(2), call.number(3)},
                         {call.number(4), call.number(5), call.number(6)});
-  if (m) ctm_ = *m * ctm_;
-  else error(call, "the angle must be smaller than the angle between the two axes, and these must not be parallel");
+  if (m)
+    ctm_ = *m * ctm_;
+  else
+    error(call,
+          "the angle must be smaller than the angle between the two axes, and these must not be parallel");
 }
 
-void Interpreter::coordinate_system(const RequestCall& call) { spaces_[call.text(0)] = ctm_; }
+void Interpreter::coordinate_system(const RequestCall& call) {
+  spaces_[call.text(0)] = ctm_;
+}
 
-void Interpreter::scoped_coordinate_system(const RequestCall& call) { edit().scoped_spaces[call.text(0)] = ctm_; }
+void Interpreter::scoped_coordinate_system(const RequestCall& call) {
+  edit().scoped_spaces[call.text(0)] = ctm_;
+}
 
 std::optional<Matrix4> Interpreter::find_space(const std::string& name) const {
-  if (auto it = attributes_->scoped_spaces.find(name); it != attributes_->scoped_spaces.end()) return it->second;
+  if (auto it = attributes_->scoped_spaces.find(name); it != attributes_->scoped_spaces.end())
+    return it->second;
   if (auto it = spaces_.find(name); it != spaces_.end()) return it->second;
   if (name == "camera" || name == "current") return Matrix4{};
   if (name == "object") return ctm_;
@@ -64,8 +78,11 @@ std::optional<Matrix4> Interpreter::find_space(const std::string& name) const {
 }
 
 void Interpreter::coord_sys_transform(const RequestCall& call) {
-  if (auto m = find_space(call.text(0))) ctm_ = *m;
-  else error_at(call.arguments[0].where, call, fmt::format("no coordinate system is named \"{}\"", call.text(0)));
+  if (auto m = find_space(call.text(0)))
+    ctm_ = *m;
+  else
+    error_at(call.arguments[0].where, call,
+             fmt::format("no coordinate system is named \"{}\"", call.text(0)));
 }
 
 } // namespace render

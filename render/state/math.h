@@ -1,4 +1,5 @@
-// Vectors, boxes and the few matrix helpers the renderer needs on top of slvm::Matrix4 (row vectors: p' = p * M).
+// Vectors, boxes and the few matrix helpers the renderer needs on top of slvm::Matrix4 (row vectors: p' = p *
+// M).
 #pragma once
 
 #include "slvm/support/matrix.h"
@@ -20,7 +21,9 @@ using slvm::Matrix4;
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kPi = 3.14159265358979323846f;
 
-inline float radians(float degrees) { return degrees * (kPi / 180.0f); }
+inline float radians(float degrees) {
+  return degrees * (kPi / 180.0f);
+}
 
 inline Vec3 transform_point(const Matrix4& m, Vec3 p) {
   auto r = slvm::transform_point(m, {p.x, p.y, p.z});
@@ -33,7 +36,8 @@ inline Vec3 transform_vector(const Matrix4& m, Vec3 v) {
 inline bool is_affine(const Matrix4& m) {
   return m(0, 3) == 0 && m(1, 3) == 0 && m(2, 3) == 0 && m(3, 3) == 1;
 }
-/// The inverse, or the identity for a singular matrix (a scaling by zero in a scene must not stop the rest of it).
+/// The inverse, or the identity for a singular matrix (a scaling by zero in a scene must not stop the rest of
+/// it).
 inline Matrix4 inverse_or_identity(const Matrix4& m) {
   Matrix4 inverse;
   return slvm::invert(m, inverse) ? inverse : Matrix4{};
@@ -63,7 +67,8 @@ struct Box {
 /// The box of a box's eight transformed corners.
 inline Box transform_box(const Matrix4& m, const Box& b) {
   Box out;
-  for (int i = 0; i < 8; ++i) out.add(transform_point(m, b.corner(i)));
+  for (int i = 0; i < 8; ++i)
+    out.add(transform_point(m, b.corner(i)));
   return out;
 }
 

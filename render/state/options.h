@@ -1,5 +1,5 @@
-// Everything that is fixed for a frame at WorldBegin: camera, image, sampling, outputs. Plain data with the defaults
-// of the RISpec (3.2, tables 4.1 to 4.4).
+// Everything that is fixed for a frame at WorldBegin: camera, image, sampling, outputs. Plain data with the
+// defaults of the RISpec (3.2, tables 4.1 to 4.4).
 #pragma once
 
 #include "render/state/math.h"
@@ -62,9 +62,9 @@ struct Options {
 
   // limits
   int bucket_width = 32, bucket_height = 32;
-  int grid_size = 256;                    ///< points in a grid
+  int grid_size = 256; ///< micropolygons in a grid, at most
   int eye_splits = 10;
-  Color opacity_threshold{0.996f};        ///< opacity at which a sample counts as closed
+  Color opacity_threshold{0.996f}; ///< opacity at which a sample counts as closed
 
   /// "shader", "archive", ... : the directories in order.
   std::map<std::string, std::vector<std::string>> search_paths;

@@ -16,7 +16,9 @@ std::string environment(std::string_view name) {
   return value ? value : "";
 }
 
-bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool is_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+}
 
 std::string expand_variables(std::string_view text) {
   std::string out;
@@ -31,7 +33,8 @@ std::string expand_variables(std::string_view text) {
       out += environment(text.substr(i + 2, end - i - 2));
       i = end + 1;
     } else if (c == '$' && i + 1 < text.size() && is_name(text[i + 1])) {
-      for (end = i + 1; end < text.size() && is_name(text[end]);) ++end;
+      for (end = i + 1; end < text.size() && is_name(text[end]);)
+        ++end;
       out += environment(text.substr(i + 1, end - i - 1));
       i = end;
     } else {
@@ -50,9 +53,12 @@ std::vector<std::string> parse_search_path(std::string_view text, const std::vec
   std::vector<std::string> out;
   std::string word;
   auto finish = [&] {
-    if (word == "&") out.insert(out.end(), previous.begin(), previous.end());
-    else if (word == "@") out.insert(out.end(), standard.begin(), standard.end());
-    else if (!word.empty()) out.push_back(word);
+    if (word == "&")
+      out.insert(out.end(), previous.begin(), previous.end());
+    else if (word == "@")
+      out.insert(out.end(), standard.begin(), standard.end());
+    else if (!word.empty())
+      out.push_back(word);
     word.clear();
   };
   for (size_t i = 0; i < expanded.size(); ++i) {
@@ -60,8 +66,10 @@ std::vector<std::string> parse_search_path(std::string_view text, const std::vec
     char next = i + 1 < expanded.size() ? expanded[i + 1] : '\0';
     bool drive = c == ':' && word.size() == 1 && std::isalpha(static_cast<unsigned char>(word[0])) &&
                  (next == '/' || next == '\\');
-    if ((c == ':' && !drive) || c == ';') finish();
-    else word += c;
+    if ((c == ':' && !drive) || c == ';')
+      finish();
+    else
+      word += c;
   }
   finish();
   return out;

@@ -8,8 +8,8 @@
 
 namespace render {
 
-/// ":" separates, ";" too; `$VAR`, `${VAR}` and `%VAR%` are replaced from the environment. A ":" after a single letter
-/// and before a slash belongs to a Windows drive.
+/// ":" separates, ";" too; `$VAR`, `${VAR}` and `%VAR%` are replaced from the environment. A ":" after a
+/// single letter and before a slash belongs to a Windows drive.
 std::vector<std::string> parse_search_path(std::string_view text, const std::vector<std::string>& previous,
                                            const std::vector<std::string>& standard);
 

@@ -1,5 +1,5 @@
-// A shader as a scene names it: Surface "plastic" "Kd" 0.8, with the space it was named in. It is looked up, loaded
-// and bound when the first primitive needs it.
+// A shader as a scene names it: Surface "plastic" "Kd" 0.8, with the space it was named in. It is looked up,
+// loaded and bound when the first primitive needs it.
 #pragma once
 
 #include "render/rib/request.h"
@@ -21,7 +21,8 @@ struct ShaderParam {
 };
 
 struct ShaderRequest {
-  RequestId kind = RequestId::kSurface; ///< Surface, Displacement, LightSource, Atmosphere, Interior, Exterior, Imager
+  RequestId kind =
+      RequestId::kSurface; ///< Surface, Displacement, LightSource, Atmosphere, Interior, Exterior, Imager
   std::string name;
   std::vector<ShaderParam> params;
   Matrix4 shader_to_camera;

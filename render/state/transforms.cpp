@@ -32,7 +32,8 @@ Matrix4 rotation(float angle, Vec3 axis) {
     Vec3 e(0.0f);
     e[row] = 1;
     Vec3 r = e * c + glm::cross(k, e) * s + k * (k[row] * (1 - c));
-    for (int column = 0; column < 3; ++column) m(row, column) = r[column];
+    for (int column = 0; column < 3; ++column)
+      m(row, column) = r[column];
   }
   return m;
 }
@@ -43,8 +44,8 @@ std::optional<Matrix4> skew(float angle, Vec3 d1, Vec3 d2) {
   float between = std::acos(std::clamp(glm::dot(a, b), -1.0f, 1.0f));
   float turn = radians(angle);
   if (turn >= between || turn <= between - kPi) return {};
-  // In the plane of d1 and d2: along = the part of d1 across d2. A point at height h over the d2 axis is shifted by
-  // h (cot(between - turn) - cot(between)) along d2.
+  // In the plane of d1 and d2: along = the part of d1 across d2. A point at height h over the d2 axis is
+  // shifted by h (cot(between - turn) - cot(between)) along d2.
   Vec3 across = a - b * glm::dot(a, b);
   float height = glm::length(across);
   if (!(height > 0)) return {};
@@ -52,7 +53,8 @@ std::optional<Matrix4> skew(float angle, Vec3 d1, Vec3 d2) {
   float shift = 1 / std::tan(between - turn) - 1 / std::tan(between);
   Matrix4 m;
   for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) m(row, column) += across[row] * shift * b[column];
+    for (int column = 0; column < 3; ++column)
+      m(row, column) += across[row] * shift * b[column];
   return m;
 }
 

@@ -18,7 +18,8 @@ public:
     size_t pitch = grid.pitch();
     for (size_t k = 0; k < grid.points(); ++k) {
       float length = std::hypot(N[k], N[pitch + k], N[2 * pitch + k]);
-      for (size_t c = 0; c < 3; ++c) P[c * pitch + k] += shading_.displacement * N[c * pitch + k] / length;
+      for (size_t c = 0; c < 3; ++c)
+        P[c * pitch + k] += shading_.displacement * N[c * pitch + k] / length;
     }
     return true;
   }
@@ -46,7 +47,8 @@ public:
   /// An imager that swaps red and blue.
   void image(const ShaderRequest&, slvm::Grid& grid) override {
     float* Ci = grid.varying(slvm::Global::kCi);
-    for (size_t k = 0; k < grid.points(); ++k) std::swap(Ci[k], Ci[2 * grid.pitch() + k]);
+    for (size_t k = 0; k < grid.points(); ++k)
+      std::swap(Ci[k], Ci[2 * grid.pitch() + k]);
   }
 
 private:
@@ -55,7 +57,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<GridShader> PlainShading::make_grid_shader() { return std::make_unique<PlainGridShader>(*this); }
+std::unique_ptr<GridShader> PlainShading::make_grid_shader() {
+  return std::make_unique<PlainGridShader>(*this);
+}
 
 Color Rendered::Ci(int x, int y) const {
   const float* p = image.pixel(x, y);
@@ -65,7 +69,8 @@ Color Rendered::Ci(int x, int y) const {
 double Rendered::covered() const {
   double sum = 0;
   for (int y = image.rect.y0; y < image.rect.y1; ++y)
-    for (int x = image.rect.x0; x < image.rect.x1; ++x) sum += alpha(x, y);
+    for (int x = image.rect.x0; x < image.rect.x1; ++x)
+      sum += alpha(x, y);
   return sum;
 }
 
@@ -73,10 +78,10 @@ Rendered render_text(const std::string& rib, const FrameSettings& settings, Plai
   Rendered out;
   slvm::SourceManager sources;
   slvm::Diagnostics diagnostics;
-  Interpreter interpreter(sources, diagnostics, [&](const Scene& scene) {
+  Interpreter interpreter(sources, diagnostics, [&](Scene& scene) {
     out.report = {};
     out.image = render_frame(scene, shading, settings, out.report);
-    out.scene = scene;
+    out.scene = std::move(scene);
   });
   interpreter.read_text("test.rib", rib);
   interpreter.finish();

@@ -1,4 +1,5 @@
-// Helpers of the renderer's tests: render RIB text with a shading that needs no shaders, look at pixels and messages.
+// Helpers of the renderer's tests: render RIB text with a shading that needs no shaders, look at pixels and
+// messages.
 #pragma once
 
 #include "render/hider/frame.h"

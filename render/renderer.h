@@ -1,0 +1,62 @@
+// The renderer as a whole: RIB in, image files out. PUBLIC; slrender is a command line around it.
+//
+//   slvm::SourceManager sources;
+//   slvm::Diagnostics diagnostics;
+//   render::Renderer renderer(sources, diagnostics);
+//   renderer.read_file("scene.rib");      // every WorldEnd renders
+//   renderer.finish();
+//   fputs(format_diagnostics(diagnostics, sources).c_str(), stderr);
+#pragma once
+
+#include "render/shading/shader_loader.h"
+#include "render/state/options.h"
+#include "slvm/support/diagnostics.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace render {
+
+struct RendererSettings {
+  int threads = 0; ///< 0: all processors
+  ShaderLoader shader_loader = load_compiled_shader;
+  /// Called with each frame's options at WorldBegin, after the file's own: command-line overrides.
+  std::function<void(Options&)> override_options;
+  /// Called before and during a frame with the finished fraction; never from two threads at once.
+  std::function<void(double)> progress;
+  /// Called before each frame is rendered and after it is written: a chance to show messages early.
+  std::function<void()> flush_messages;
+  /// Output of printf in shaders.
+  std::function<void(std::string_view)> print;
+};
+
+class Renderer {
+public:
+  /// Both must outlive the renderer. Files read are added to `sources`; all messages go to `diagnostics`.
+  Renderer(slvm::SourceManager& sources, slvm::Diagnostics& diagnostics, RendererSettings settings = {});
+  ~Renderer();
+
+  /// Reads a RIB file with the state earlier ones left. False: it cannot be read (nothing is reported).
+  bool read_file(const std::string& name);
+  /// The same for text at hand; `name` is what messages call it.
+  void read_text(std::string name, std::string text);
+  /// Reports what the files left open.
+  void finish();
+
+  /// Starting values.
+  Options& options();
+  /// The search path of a kind ("shader", "archive"...) until a file sets one, and what "@" stands for in it.
+  void set_standard_path(const std::string& kind, std::vector<std::string> directories);
+
+  /// Image files written so far.
+  const std::vector<std::string>& written() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace render

@@ -1,0 +1,41 @@
+// What shaders ask of the renderer while they run: spaces, lights, attributes, options. One for each frame,
+// used from all threads; everything it reads is fixed.
+#pragma once
+
+#include "render/shading/bound_shaders.h"
+#include "render/state/camera.h"
+#include "slvm/renderer_services.h"
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace render {
+
+class SceneServices : public slvm::RendererServices {
+public:
+  /// `print` gets the text of printf, one grid at a time. All arguments must outlive the services.
+  SceneServices(const Scene& scene, const BoundShaders& shaders, std::function<void(std::string_view)> print);
+
+  bool space_to_current(const slvm::ShadingState&, std::string_view space, Matrix4& m) override;
+  bool current_to_space(const slvm::ShadingState&, std::string_view space, Matrix4& m) override;
+  std::span<const slvm::Instance* const> lights(const slvm::ShadingState&) override;
+  bool attribute(const slvm::ShadingState&, std::string_view name, slvm::Value& out) override;
+  bool option(const slvm::ShadingState&, std::string_view name, slvm::Value& out) override;
+  bool renderer_info(const slvm::ShadingState&, std::string_view name, slvm::Value& out) override;
+  void print(const slvm::ShadingState&, std::string_view text) override;
+
+private:
+  struct Space {
+    Matrix4 to_camera, from_camera;
+  };
+  const Scene& scene_;
+  const BoundShaders& shaders_;
+  std::function<void(std::string_view)> print_;
+  std::mutex print_mutex_;
+  std::map<std::string, Space, std::less<>> spaces_;
+  std::map<std::string, slvm::Value, std::less<>> options_;
+};
+
+} // namespace render

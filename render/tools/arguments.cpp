@@ -1,0 +1,123 @@
+// The command line of slrender: the spellings of PRMan and Aqsis (-progress, -t:4, -crop ...) and GNU's
+// (--progress).
+#include "render/tools/arguments.h"
+
+#include "render/state/search_path.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdlib>
+#include <iostream>
+#include <string_view>
+#include <thread>
+
+namespace render::tools {
+
+namespace {
+
+constexpr std::string_view kLongNames[] = {"help",    "version", "progress", "Progress", "progressformat",
+                                           "crop",    "res",     "cwd",      "shaders",  "archives",
+                                           "threads", "verbose", "nowarn",   "Werror"};
+
+/// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
+std::vector<std::string> normalise(int argc, char** argv) {
+  std::vector<std::string> out;
+  for (int i = 1; i < argc; ++i) {
+    std::string a = argv[i];
+    if (a.starts_with("-t:")) {
+      out.push_back("--threads=" + a.substr(3));
+      continue;
+    }
+    std::string_view name = std::string_view(a).substr(0, a.find('='));
+    if (name.size() > 2 && name[0] == '-' && name[1] != '-')
+      for (std::string_view known : kLongNames)
+        if (name.substr(1) == known) {
+          a.insert(0, "-");
+          break;
+        }
+    out.push_back(std::move(a));
+  }
+  return out;
+}
+
+/// "4", "all" or "0" (all processors), "-1" (all but one). Empty: none of these.
+std::optional<int> thread_count(const std::string& text) {
+  if (text == "all") return 0;
+  char* end = nullptr;
+  long n = std::strtol(text.c_str(), &end, 10);
+  if (text.empty() || *end != '\0' || n > 4096 || n < -4096) return {};
+  if (n >= 0) return static_cast<int>(n);
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) + static_cast<int>(n));
+}
+
+std::vector<std::string> directories(const std::string& option, const char* variable) {
+  const char* environment = std::getenv(variable);
+  std::vector<std::string> standard{"."};
+  if (environment) standard = parse_search_path(environment, {}, standard);
+  return option.empty() ? standard : parse_search_path(option, {}, standard);
+}
+
+} // namespace
+
+Arguments parse_arguments(int argc, char** argv) {
+  Arguments out;
+  CLI::App app{"slrender: renders RIB scenes with RSL shaders"};
+  app.set_help_flag("-h,--help", "print this and leave");
+  app.set_version_flag("--version", "slrender 0.1.0 (Anemone)");
+  std::string threads = "all", shaders, archives;
+  bool updating = false, lines = false;
+  std::vector<float> crop;
+  std::vector<int> resolution;
+  app.add_option("files", out.files,
+                 "RIB files, read one after the other with shared state; standard input when none, or for -");
+  app.add_flag("--progress", updating, "show progress on one line that is updated");
+  app.add_flag("--Progress", lines, "show progress as lines, for farm software: R90000 and the percentage");
+  app.add_option("--progressformat", out.progress_format,
+                 "form of the progress lines; {:3.0f} is the percentage");
+  app.add_option("-t,--threads", threads,
+                 "-t:N threads; -t:0 or -t:all for all processors, -t:-N for all but N");
+  app.add_option("--crop", crop, "render part of the frame: xmin xmax ymin ymax, from 0 to 1")->expected(4);
+  app.add_option("--res", resolution, "resolution: width and height in pixels")->expected(2);
+  app.add_option("-d,--display", out.display,
+                 "where the first Display goes: a file name such as out.png, or a type such as openexr");
+  app.add_option("--cwd", out.directory, "change to this directory first");
+  app.add_option(
+      "--shaders", shaders,
+      "directories for shaders, separated by ':'; @ in a scene's path (environment: ANEMONE_SHADERS)");
+  app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
+  app.add_flag(
+      "-v,--verbose", [&](auto n) { out.verbosity = 1 + static_cast<int>(n); }, "say what is done");
+  app.add_flag("--nowarn", out.no_warnings, "no warnings");
+  app.add_flag("--Werror", out.warnings_are_errors, "warnings are errors");
+  app.footer(
+      "Exit status: 0 fine, 1 errors in a scene, 2 wrong usage, 3 a file is missing, 4 internal error.");
+
+  std::vector<std::string> words = normalise(argc, argv);
+  std::reverse(words.begin(), words.end()); // as CLI11 wants them
+  try {
+    app.parse(words);
+    auto count = thread_count(threads);
+    if (!count) throw CLI::ValidationError("-t", "expected a number or all, found \"" + threads + "\"");
+    out.threads = *count;
+    if (resolution.size() == 2 && (resolution[0] < 1 || resolution[1] < 1))
+      throw CLI::ValidationError("-res", "expected two positive numbers");
+    if (crop.size() == 4 && (crop[0] >= crop[1] || crop[2] >= crop[3]))
+      throw CLI::ValidationError("-crop", "expected xmin < xmax and ymin < ymax");
+  } catch (const CLI::ParseError& e) {
+    int status = app.exit(e);
+    out.exit_status = status == 0 ? 0 : 2;
+    return out;
+  }
+  if (lines)
+    out.progress = ProgressStyle::kLines;
+  else if (updating)
+    out.progress = ProgressStyle::kUpdating;
+  if (crop.size() == 4) out.crop = {crop[0], crop[1], crop[2], crop[3]};
+  if (resolution.size() == 2) out.resolution = {resolution[0], resolution[1]};
+  if (out.files.empty()) out.files.emplace_back("-");
+  out.shader_path = directories(shaders, "ANEMONE_SHADERS");
+  out.archive_path = directories(archives, "ANEMONE_ARCHIVES");
+  return out;
+}
+
+} // namespace render::tools

@@ -1,0 +1,34 @@
+// The command line of slrender.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace render::tools {
+
+enum class ProgressStyle : uint8_t { kNone, kUpdating, kLines };
+
+struct Arguments {
+  std::vector<std::string> files; ///< "-": standard input
+  int threads = 0;                ///< 0: all processors
+  ProgressStyle progress = ProgressStyle::kNone;
+  std::string progress_format = "R90000 {:3.0f}%";
+  std::optional<std::array<float, 4>> crop;
+  std::optional<std::array<int, 2>> resolution;
+  std::string display; ///< a file name or a Display type
+  std::string directory;
+  std::vector<std::string> shader_path, archive_path;
+  int verbosity = 1;
+  bool warnings_are_errors = false, no_warnings = false;
+
+  /// Set when there is nothing to do but leave: after --help or --version, or with a usage error.
+  std::optional<int> exit_status;
+};
+
+/// Prints help, version and usage errors itself.
+Arguments parse_arguments(int argc, char** argv);
+
+} // namespace render::tools

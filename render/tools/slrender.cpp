@@ -1,0 +1,144 @@
+// slrender: reads RIB files and renders every world block in them.
+#include "render/renderer.h"
+#include "render/tools/arguments.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+#include <mutex>
+#include <unistd.h>
+
+namespace {
+
+using render::tools::Arguments;
+using render::tools::ProgressStyle;
+
+enum ExitStatus : int { kFine = 0, kWrongInput = 1, kUsage = 2, kMissingFile = 3, kInternal = 4 };
+
+/// Prints messages as they come and remembers whether there were errors.
+class Messages {
+public:
+  explicit Messages(const Arguments& arguments) {
+    diagnostics.warnings_are_errors = arguments.warnings_are_errors;
+    diagnostics.no_warnings = arguments.no_warnings;
+  }
+
+  void flush() {
+    std::string text = format_diagnostics(diagnostics, sources, ::isatty(STDERR_FILENO) != 0);
+    std::fputs(text.c_str(), stderr);
+    failed = failed || diagnostics.has_errors();
+    slvm::Diagnostics fresh;
+    fresh.error_limit = diagnostics.error_limit;
+    fresh.warnings_are_errors = diagnostics.warnings_are_errors;
+    fresh.no_warnings = diagnostics.no_warnings;
+    diagnostics = std::move(fresh);
+  }
+
+  slvm::SourceManager sources;
+  slvm::Diagnostics diagnostics;
+  bool failed = false;
+};
+
+/// Shows whole percents, each once.
+class Progress {
+public:
+  explicit Progress(const Arguments& arguments)
+      : style_(arguments.progress), format_(arguments.progress_format) {}
+
+  void show(double fraction) {
+    int percent = static_cast<int>(fraction * 100);
+    if (percent == last_) return;
+    last_ = percent;
+    std::string text;
+    try {
+      text = fmt::format(fmt::runtime(format_), static_cast<double>(percent));
+    } catch (const fmt::format_error&) { // the user's own format
+      text = fmt::format("R90000 {:3d}%", percent);
+    }
+    if (style_ == ProgressStyle::kLines)
+      fmt::print(stderr, "{}\n", text);
+    else
+      fmt::print(stderr, "\r{}{}", text, percent == 100 ? "\n" : "");
+  }
+  bool wanted() const { return style_ != ProgressStyle::kNone; }
+
+private:
+  ProgressStyle style_;
+  std::string format_;
+  int last_ = -1;
+};
+
+void override_options(const Arguments& arguments, render::Options& options) {
+  if (arguments.resolution) {
+    options.xres = (*arguments.resolution)[0];
+    options.yres = (*arguments.resolution)[1];
+  }
+  if (arguments.crop) options.crop = *arguments.crop;
+  if (arguments.display.empty()) return;
+  if (options.displays.empty()) options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
+  render::DisplayRequest& d = options.displays.front();
+  if (std::filesystem::path(arguments.display).has_extension()) {
+    d.name = arguments.display;
+    d.type = "file";
+  } else {
+    d.type = arguments.display;
+  }
+}
+
+int run(const Arguments& arguments) {
+  if (!arguments.directory.empty()) {
+    std::error_code error;
+    std::filesystem::current_path(arguments.directory, error);
+    if (error) {
+      fmt::print(stderr, "slrender: error: cannot change to \"{}\": {}\n", arguments.directory,
+                 error.message());
+      return kMissingFile;
+    }
+  }
+  Messages messages(arguments);
+  Progress progress(arguments);
+  render::RendererSettings settings;
+  settings.threads = arguments.threads;
+  settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
+  settings.flush_messages = [&] { messages.flush(); };
+  settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
+  if (progress.wanted()) settings.progress = [&](double fraction) { progress.show(fraction); };
+
+  render::Renderer renderer(messages.sources, messages.diagnostics, settings);
+  renderer.set_standard_path("shader", arguments.shader_path);
+  renderer.set_standard_path("archive", arguments.archive_path);
+  bool missing = false;
+  for (const std::string& name : arguments.files) {
+    if (name == "-") {
+      std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+      renderer.read_text("<stdin>", std::move(text));
+    } else if (!renderer.read_file(name)) {
+      fmt::print(stderr, "slrender: error: cannot read \"{}\"\n", name);
+      missing = true;
+    }
+    messages.flush();
+  }
+  renderer.finish();
+  messages.flush();
+  if (arguments.verbosity > 1)
+    for (const std::string& name : renderer.written())
+      fmt::print("{}\n", name);
+  if (missing) return kMissingFile;
+  return messages.failed ? kWrongInput : kFine;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments = render::tools::parse_arguments(argc, argv);
+  if (arguments.exit_status) return *arguments.exit_status;
+  try {
+    return run(arguments);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "slrender: internal error: {}\n", e.what());
+    return kInternal;
+  }
+}

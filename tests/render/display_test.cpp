@@ -1,0 +1,120 @@
+// Image files: types, modes, quantisation, names, errors.
+#include "render/display/output.h"
+#include "render_text.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace render::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class Display : public ::testing::Test {
+protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("anemone_display_" + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  std::string path(const std::string& name) { return (directory_ / name).string(); }
+
+  /// Renders a half-covering grey disk to the displays and returns the messages of writing.
+  std::string write(const std::string& displays) {
+    Rendered r =
+        render_text(displays + " Format 8 6 1 PixelFilter \"box\" 1 1 CropWindow 0 1 0 .5 WorldBegin "
+                               "Color .5 .25 1 Translate 0 0 5 Disk 0 9 360 WorldEnd");
+    slvm::SourceManager sources;
+    slvm::Diagnostics diagnostics;
+    auto aovs = display_aovs(r.scene.options, diagnostics);
+    written_ = write_displays(r.scene, r.image, aovs, diagnostics);
+    std::string messages;
+    for (const auto& d : diagnostics.sorted())
+      messages += d.text + "\n";
+    return r.messages + messages;
+  }
+
+  std::vector<float> read(const std::string& name, OIIO::ImageSpec& spec) {
+    auto in = OIIO::ImageInput::open(path(name));
+    if (!in) return {};
+    spec = in->spec();
+    std::vector<float> pixels(spec.image_pixels() * static_cast<size_t>(spec.nchannels));
+    in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data());
+    return pixels;
+  }
+
+  fs::path directory_;
+  std::vector<std::string> written_;
+};
+
+TEST_F(Display, png_is_eight_bit_and_keeps_the_crop_window) {
+  EXPECT_EQ(write("Quantize \"rgba\" 255 0 255 0 Display \"" + path("a.png") + "\" \"png\" \"rgba\""), "");
+  OIIO::ImageSpec spec;
+  auto p = read("a.png", spec);
+  ASSERT_EQ(spec.nchannels, 4);
+  EXPECT_EQ(spec.width, 8);
+  EXPECT_EQ(spec.height, 3);
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::UINT8);
+  EXPECT_NEAR(p[0], 128 / 255.0f, 1e-6f);
+  EXPECT_NEAR(p[1], 64 / 255.0f, 1e-6f);
+  EXPECT_EQ(p[3], 1);
+}
+
+TEST_F(Display, exr_is_float_with_matrices) {
+  EXPECT_EQ(write("Display \"" + path("a.exr") + "\" \"openexr\" \"rgbaz\""), "");
+  OIIO::ImageSpec spec;
+  auto p = read("a.exr", spec);
+  ASSERT_EQ(spec.nchannels, 5);
+  EXPECT_EQ(p[0], 0.5f);
+  EXPECT_EQ(p[1], 0.25f);
+  EXPECT_EQ(p[4], 5);
+  EXPECT_EQ(spec.full_height, 6);
+  EXPECT_NE(spec.find_attribute("worldtocamera"), nullptr);
+}
+
+TEST_F(Display, tiff_takes_sixteen_bits_or_floats) {
+  EXPECT_EQ(write("Quantize \"rgba\" 65535 0 65535 0 Display \"" + path("a") + "\" \"tiff\" \"rgb\""), "");
+  OIIO::ImageSpec spec;
+  auto p = read("a.tif", spec); // the extension is added
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::UINT16);
+  EXPECT_NEAR(p[1], 0.25f, 1e-4f);
+  EXPECT_EQ(write("Quantize \"rgba\" 0 0 1 0 Display \"" + path("b.tif") + "\" \"tiff\" \"rgb\""), "");
+  p = read("b.tif", spec);
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+  EXPECT_EQ(p[1], 0.25f);
+}
+
+TEST_F(Display, several_displays_with_shader_variables) {
+  EXPECT_EQ(write("Display \"" + path("a.exr") + "\" \"openexr\" \"rgba\" Display \"+" + path("n.exr") +
+                  "\" \"openexr\" \"varying normal N\" Display \"+" + path("s.exr") + "\" \"openexr\" \"s\""),
+            "");
+  EXPECT_EQ(written_.size(), 3u);
+  OIIO::ImageSpec spec;
+  auto n = read("n.exr", spec);
+  ASSERT_EQ(spec.nchannels, 3);
+  EXPECT_NEAR(n[2], 1, 1e-5f);
+  read("s.exr", spec);
+  EXPECT_EQ(spec.nchannels, 1);
+}
+
+TEST_F(Display, nothing_is_left_of_a_failed_write) {
+  std::string nowhere = path("no/such/folder/a.png");
+  EXPECT_THAT(write("Display \"" + nowhere + "\" \"png\" \"rgba\""), HasSubstr("Display: cannot write"));
+  EXPECT_TRUE(fs::is_empty(directory_));
+}
+
+TEST_F(Display, errors_name_type_and_mode) {
+  EXPECT_THAT(write("Display \"x.foo\" \"foo\" \"rgba\""),
+              HasSubstr("Display: unknown type \"foo\"; expected \"tiff\""));
+  EXPECT_THAT(write("Display \"x.exr\" \"openexr\" \"varying string x\""),
+              HasSubstr("Display: \"varying string x\" cannot be shown as an image"));
+  EXPECT_EQ(write("Display \"x\" \"null\" \"rgba\""), "");
+}
+
+} // namespace
+} // namespace render::testing

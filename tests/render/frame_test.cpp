@@ -1,0 +1,171 @@
+// Whole frames with known answers: areas, depths, watertight surfaces, clipping, crop windows, threads.
+#include "render_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace render::testing {
+namespace {
+
+const std::string kPlain = "PixelFilter \"box\" 1 1 PixelSamples 8 8 ";
+
+TEST(Frame, a_disk_covers_its_area) {
+  // Orthographic, 64 pixels for 2 units: radius 0.75 is 24 pixels.
+  Rendered r = render_text("Format 64 64 1 " + kPlain + "WorldBegin Translate 0 0 5 Disk 0 .75 360 WorldEnd");
+  EXPECT_NEAR(r.covered(), M_PI * 24 * 24, 0.003 * M_PI * 24 * 24);
+  EXPECT_EQ(r.alpha(32, 32), 1);
+  EXPECT_EQ(r.alpha(2, 2), 0);
+  EXPECT_FLOAT_EQ(r.z(32, 32), 5);
+  EXPECT_EQ(r.z(1, 1), Image::kEmptyDepth);
+}
+
+TEST(Frame, a_sphere_in_perspective_covers_its_silhouette) {
+  // Distance 4, radius 1: the silhouette's radius on the plane z = 1 is tan(asin(1/4)) = 1 / sqrt(15).
+  Rendered r = render_text("Format 80 80 1 Projection \"perspective\" \"fov\" 60 " + kPlain +
+                           "Translate 0 0 4 WorldBegin Sphere 1 -1 1 360 WorldEnd");
+  double radius = 40 / std::sqrt(15.0) / std::tan(M_PI / 6);
+  EXPECT_NEAR(r.covered(), M_PI * radius * radius, 0.006 * M_PI * radius * radius);
+  EXPECT_NEAR(r.z(40, 40), 3, 0.002f);
+}
+
+TEST(Frame, every_quadric_and_patch_is_watertight) {
+  // Each fills the middle of the image; a crack between grids would let a sample through.
+  const char* kShapes[] = {
+      "Sphere 1 -1 1 360",
+      "Rotate 33 1 1 0 Torus 1 1.2 0 360 360",
+      "Rotate 90 1 0 0 Cylinder 1 -2 2 360",
+      "Rotate 70 1 0 0 Translate 0 0 -1.5 Paraboloid 1.5 0 3 360",
+      "Polygon \"P\" [-2 -2 -1  -2 3 .5  2 3 .5  3 0 0  2 -2 -1]",
+      "Patch \"bicubic\" \"P\" [-3 -3 0 -1 -3 2 1 -3 -2 3 -3 0  -3 -1 2 -1 -1 3 1 -1 0 3 -1 2 "
+      " -3 1 0 -1 1 -3 1 1 3 3 1 0  -3 3 0 -1 3 2 1 3 -2 3 3 0]",
+      "Patch \"bilinear\" \"P\" [-2 -2 0 2 -2 1 -2 2 -1 2 2 2]",
+  };
+  for (const char* shape : kShapes) {
+    SCOPED_TRACE(shape);
+    Rendered r =
+        render_text("Format 120 120 1 PixelSamples 4 4 PixelFilter \"box\" 1 1 Projection \"perspective\" "
+                    "\"fov\" 16 Translate 0 0 6 Rotate 10 1 2 3 WorldBegin " +
+                    std::string(shape) + " WorldEnd");
+    int holes = 0;
+    for (int y = 40; y < 80; ++y)
+      for (int x = 40; x < 80; ++x)
+        holes += r.alpha(x, y) < 1;
+    EXPECT_EQ(holes, 0);
+  }
+}
+
+TEST(Frame, half_transparent_surfaces_show_no_seams) {
+  Rendered r =
+      render_text("Format 120 120 1 PixelSamples 4 4 Projection \"perspective\" \"fov\" 20 Translate 0 0 6 "
+                  "WorldBegin Opacity .5 .5 .5 Rotate 20 1 2 3 Rotate 90 1 0 0 Cylinder 1 -2 2 180 WorldEnd");
+  for (int y = 50; y < 70; ++y)
+    for (int x = 50; x < 70; ++x)
+      EXPECT_NEAR(r.alpha(x, y), 0.5f, 1e-5f) << x << " " << y;
+}
+
+TEST(Frame, one_sided_surfaces_hide_their_back) {
+  std::string frame = "Format 20 20 1 PixelFilter \"box\" 1 1 WorldBegin Sides 1 Translate 0 0 5 ";
+  // A disk's outside faces +z, away from the eye.
+  EXPECT_EQ(render_text(frame + "Disk 0 1 360 WorldEnd").covered(), 0);
+  EXPECT_GT(render_text(frame + "ReverseOrientation Disk 0 1 360 WorldEnd").covered(), 100);
+  EXPECT_GT(render_text(frame + "Rotate 180 0 1 0 Disk 0 1 360 WorldEnd").covered(), 100);
+  EXPECT_EQ(render_text(frame + "Scale -1 1 1 Disk 0 1 360 WorldEnd").covered(), 0);
+  // Of a sphere the front half is left: an open bowl seen from behind would show its inside.
+  Rendered bowl = render_text(frame + "Sphere 1 -1 1 360 WorldEnd");
+  EXPECT_NEAR(bowl.z(10, 10), 4, 0.01f);
+}
+
+TEST(Frame, near_clipping_opens_a_sphere) {
+  Rendered r = render_text("Format 20 20 1 Clipping 5 100 PixelFilter \"box\" 1 1 WorldBegin Translate 0 0 5 "
+                           "Sphere 1 -1 1 360 WorldEnd");
+  EXPECT_NEAR(r.z(10, 10), 6, 0.01f); // the inside of its far half
+}
+
+TEST(Frame, a_floor_through_the_eye_reaches_the_picture_edges) {
+  Rendered r =
+      render_text("Format 60 60 1 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 60 WorldBegin "
+                  "Polygon \"P\" [-50 -1 50  50 -1 50  50 -1 -50  -50 -1 -50] WorldEnd");
+  for (int x = 0; x < 60; ++x)
+    EXPECT_EQ(r.alpha(x, 59), 1) << x;
+  for (int x = 0; x < 60; ++x)
+    EXPECT_EQ(r.alpha(x, 20), 0) << x;
+  // Depth of the floor seen through the centre of pixel (30, 49), from its similar triangles.
+  double y = (49.5 - 30) / 30 * std::tan(M_PI / 6);
+  EXPECT_NEAR(r.z(30, 49), 1 / y, 0.08);
+}
+
+TEST(Frame, displacement_within_its_bound_is_complete) {
+  PlainShading shading;
+  shading.displacement = 0.5f;
+  Rendered r =
+      render_text("Format 64 64 1 " + kPlain +
+                      "WorldBegin Translate 0 0 5 Attribute \"displacementbound\" \"sphere\" .5 "
+                      "\"coordinatesystem\" \"object\" ShadingRate .1 Sphere .25 -.25 .25 360 WorldEnd",
+                  {}, shading);
+  EXPECT_NEAR(r.covered(), M_PI * 24 * 24, 0.006 * M_PI * 24 * 24);
+}
+
+const char* kMixedScene =
+    "Format 90 70 1 PixelSamples 3 3 Projection \"perspective\" \"fov\" 40 Translate 0 0 6 "
+    "Option \"limits\" \"bucketsize\" [16 16] WorldBegin "
+    "Color 1 .2 .1 Sphere 1 -1 1 360 Opacity .4 .5 .6 Color .2 1 .3 Translate .5 .5 -2 "
+    "Sphere .7 -.7 .7 270 Rotate 40 1 1 0 Torus 1 .3 0 360 360 Opacity 1 1 1 Translate 0 0 5 "
+    "Polygon \"P\" [-5 -5 0 5 -5 0 5 5 0 -5 5 0] \"Cs\" [1 0 0 0 1 0 0 0 1 1 1 1] WorldEnd";
+
+TEST(Frame, pixels_do_not_depend_on_threads_or_buckets) {
+  FrameSettings one, many;
+  one.threads = 1;
+  many.threads = 7;
+  Rendered a = render_text(kMixedScene, one, true), b = render_text(kMixedScene, many, true);
+  EXPECT_EQ(a.image.data, b.image.data);
+  std::string other = kMixedScene;
+  other.replace(other.find("[16 16]"), 7, "[23 64]");
+  EXPECT_EQ(a.image.data, render_text(other, many, true).image.data);
+}
+
+TEST(Frame, a_crop_window_is_a_piece_of_the_whole) {
+  Rendered whole = render_text(kMixedScene, {}, true);
+  Rendered part = render_text("CropWindow .3 .8 .2 .6 " + std::string(kMixedScene), {}, true);
+  EXPECT_EQ(part.image.rect.x0, 27);
+  EXPECT_EQ(part.image.rect.y0, 14);
+  EXPECT_EQ(part.image.rect.width(), 45);
+  for (int y = part.image.rect.y0; y < part.image.rect.y1; ++y)
+    for (int x = part.image.rect.x0; x < part.image.rect.x1; ++x)
+      for (int c = 0; c < Image::kAov; ++c)
+        ASSERT_EQ(part.image.pixel(x, y)[c], whole.image.pixel(x, y)[c]) << x << " " << y << " " << c;
+}
+
+TEST(Frame, exposure_and_imager) {
+  std::string frame = "Format 4 4 1 PixelFilter \"box\" 1 1 Exposure 2 2 ";
+  std::string world = "WorldBegin Color .5 .125 .02 Translate 0 0 5 Disk 0 9 360 WorldEnd";
+  Rendered r = render_text(frame + world);
+  EXPECT_FLOAT_EQ(r.Ci(1, 1).x, 1);
+  EXPECT_FLOAT_EQ(r.Ci(1, 1).y, 0.5f);
+  EXPECT_FLOAT_EQ(r.Ci(1, 1).z, 0.2f);
+  Rendered swapped = render_text(frame + "Imager \"swap\" " + world);
+  EXPECT_FLOAT_EQ(swapped.Ci(1, 1).x, 0.2f);
+  EXPECT_FLOAT_EQ(swapped.Ci(1, 1).z, 1);
+}
+
+TEST(Frame, shader_variables_as_channels) {
+  FrameSettings s;
+  s.aovs = {{"N", 3, 0}, {"heat", 1, 3}};
+  Rendered r = render_text("Format 8 8 1 PixelFilter \"box\" 1 1 WorldBegin Translate 0 0 5 Disk 0 9 360 "
+                           "\"constant float heat\" [42] WorldEnd",
+                           s);
+  const float* p = r.image.pixel(4, 4) + Image::kAov;
+  EXPECT_NEAR(p[2], 1, 1e-5f);
+  EXPECT_FLOAT_EQ(p[3], 42);
+}
+
+TEST(Frame, hidden_grids_are_not_shaded) {
+  std::string frame = "Format 64 64 1 WorldBegin Translate 0 0 5 Disk 0 9 360 ";
+  Rendered alone = render_text(frame + "WorldEnd");
+  Rendered with_hidden = render_text(frame + "Translate 0 0 5 Sphere 1 -1 1 360 WorldEnd");
+  EXPECT_GT(with_hidden.report.grids, alone.report.grids);
+  EXPECT_EQ(with_hidden.report.shaded_grids, alone.report.shaded_grids);
+}
+
+} // namespace
+} // namespace render::testing

@@ -1,0 +1,175 @@
+// The sample buffer by itself: coverage of micropolygons, shared edges, compositing with known answers.
+#include "render/hider/sample_buffer.h"
+
+#include <gtest/gtest.h>
+
+namespace render {
+namespace {
+
+SamplingSettings settings(int samples = 8) {
+  SamplingSettings s;
+  s.xsamples = s.ysamples = samples;
+  s.filter = {FilterKind::kBox, 1, 1};
+  return s;
+}
+
+/// One micropolygon from four raster points (u fastest).
+ShadedGrid quad(const std::array<Vec3, 4>& p, Color Ci, Color Oi) {
+  ShadedGrid g;
+  g.nu = g.nv = 2;
+  g.position = {p[0], p[1], p[2], p[3]};
+  g.Ci.assign(4, Ci);
+  g.Oi.assign(4, Oi);
+  g.hidden = {0};
+  return g;
+}
+
+/// A rectangle that covers the test image at depth z.
+ShadedGrid sheet(float z, Color Ci, Color Oi) {
+  return quad({Vec3(-9, -9, z), Vec3(99, -9, z), Vec3(-9, 99, z), Vec3(99, 99, z)}, Ci, Oi);
+}
+
+Image drawn(const std::vector<ShadedGrid>& grids, const SamplingSettings& s = settings(), int size = 4) {
+  Image image({0, 0, size, size}, s.aov_floats);
+  SampleBuffer buffer(image.rect, s);
+  for (const ShadedGrid& g : grids)
+    buffer.draw(g);
+  buffer.finish(image);
+  return image;
+}
+
+const Color kWhite(1.0f), kBlack(0.0f);
+
+TEST(Hider, half_plane_covers_its_area) {
+  // The edge runs through the pixel (1,1) from (1, 1.25) to (2, 1.75): half of it.
+  Image i = drawn(
+      {quad({Vec3(-9, -3.75f, 1), Vec3(11, 6.25f, 1), Vec3(-9, 50, 1), Vec3(11, 60, 1)}, kWhite, kWhite)},
+      settings(16));
+  EXPECT_NEAR(i.pixel(1, 1)[Image::kAlpha], 0.5f, 0.01f);
+  EXPECT_EQ(i.pixel(1, 0)[Image::kAlpha], 0);
+  EXPECT_EQ(i.pixel(1, 3)[Image::kAlpha], 1);
+}
+
+TEST(Hider, neighbours_share_edges_without_gap_or_overlap) {
+  // Half-transparent fans around a centre: a sample hit twice would be 0.75 opaque, one missed 0.
+  std::vector<ShadedGrid> grids;
+  Vec3 centre(2.013f, 1.987f, 1), ring[9];
+  for (int k = 0; k <= 8; ++k) {
+    float a = 0.3f + static_cast<float>(k % 8) * kPi / 4;
+    ring[k] = {2 + 9 * std::cos(a), 2 + 9 * std::sin(a), 1};
+  }
+  for (int k = 0; k < 8; k += 2)
+    grids.push_back(quad({centre, ring[k], ring[k + 2], ring[k + 1]}, kWhite * 0.5f, kWhite * 0.5f));
+  SamplingSettings s = settings(16);
+  for (bool jitter : {true, false}) {
+    s.jitter = jitter;
+    Image i = drawn(grids, s);
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x)
+        EXPECT_FLOAT_EQ(i.pixel(x, y)[Image::kAlpha], 0.5f);
+  }
+}
+
+TEST(Hider, samples_on_an_edge_belong_to_one_side) {
+  // Without jitter the samples of odd counts lie exactly on x = 1.5 and y = 1.5.
+  SamplingSettings s = settings(1);
+  s.jitter = false;
+  auto half = [&](float x0, float x1) {
+    return quad({Vec3(x0, -1, 1), Vec3(x1, -1, 1), Vec3(x0, 9, 1), Vec3(x1, 9, 1)}, kWhite * 0.5f,
+                kWhite * 0.5f);
+  };
+  Image i = drawn({half(-1, 1.5f), half(1.5f, 9)}, s);
+  EXPECT_FLOAT_EQ(i.pixel(1, 1)[Image::kAlpha], 0.5f);
+}
+
+TEST(Hider, nearest_opaque_surface_wins_in_any_order) {
+  ShadedGrid red = sheet(2, {1, 0, 0}, kWhite), green = sheet(1, {0, 1, 0}, kWhite);
+  for (const auto& order : {std::vector{red, green}, std::vector{green, red}}) {
+    Image i = drawn(order);
+    EXPECT_EQ(i.pixel(1, 1)[0], 0);
+    EXPECT_EQ(i.pixel(1, 1)[1], 1);
+    EXPECT_EQ(i.pixel(1, 1)[Image::kZ], 1);
+  }
+}
+
+TEST(Hider, transparent_surfaces_composite_front_to_back) {
+  // Ci is premultiplied: 0.5 red over 0.25 green over opaque blue.
+  ShadedGrid a = sheet(1, {0.5f, 0, 0}, Color(0.5f)), b = sheet(2, {0, 0.25f, 0}, Color(0.25f)),
+             c = sheet(3, {0, 0, 1}, kWhite);
+  for (const auto& order : {std::vector{a, b, c}, std::vector{c, b, a}, std::vector{b, c, a}}) {
+    Image i = drawn(order);
+    const float* p = i.pixel(2, 2);
+    EXPECT_FLOAT_EQ(p[0], 0.5f);
+    EXPECT_FLOAT_EQ(p[1], 0.5f * 0.25f);
+    EXPECT_FLOAT_EQ(p[2], 0.5f * 0.75f);
+    EXPECT_FLOAT_EQ(p[Image::kAlpha], 1);
+  }
+  Image i = drawn({b, a});
+  EXPECT_FLOAT_EQ(i.pixel(0, 0)[Image::kAlpha], 1 - 0.5f * 0.75f);
+}
+
+TEST(Hider, coloured_opacity_filters_each_component) {
+  Image i = drawn({sheet(1, kBlack, {1, 0, 0.5f}), sheet(2, kWhite, kWhite)});
+  EXPECT_FLOAT_EQ(i.pixel(0, 0)[0], 0);
+  EXPECT_FLOAT_EQ(i.pixel(0, 0)[1], 1);
+  EXPECT_FLOAT_EQ(i.pixel(0, 0)[2], 0.5f);
+}
+
+TEST(Hider, light_without_opacity_adds) {
+  Image i = drawn({sheet(1, {0.25f, 0.25f, 0.25f}, kBlack), sheet(2, {0.5f, 0.5f, 0.5f}, kWhite)});
+  EXPECT_FLOAT_EQ(i.pixel(0, 0)[0], 0.75f);
+}
+
+TEST(Hider, matte_cuts_a_hole) {
+  ShadedGrid hole = sheet(1, kWhite, kWhite);
+  hole.matte = true;
+  Image i = drawn({hole, sheet(2, kWhite, kWhite)});
+  EXPECT_EQ(i.pixel(0, 0)[0], 0);
+  EXPECT_EQ(i.pixel(0, 0)[Image::kAlpha], 0);
+  ShadedGrid half = sheet(1, kWhite, kWhite * 0.5f);
+  half.matte = true;
+  i = drawn({half, sheet(2, kWhite, kWhite)});
+  EXPECT_FLOAT_EQ(i.pixel(0, 0)[Image::kAlpha], 0.5f);
+}
+
+TEST(Hider, smooth_and_constant_shading) {
+  ShadedGrid g = sheet(1, kWhite, kWhite);
+  g.Ci = {kBlack, kWhite, kBlack, kWhite};
+  EXPECT_EQ(drawn({g}).pixel(2, 2)[0], 0);
+  g.smooth = true;
+  EXPECT_NEAR(drawn({g}, settings(16)).pixel(2, 2)[0], (2.5f + 9) / 108, 1e-3f);
+}
+
+TEST(Hider, clipping_planes_cut_within_a_micropolygon) {
+  SamplingSettings s = settings(16);
+  s.near_plane = 2;
+  // z runs from 0 at x = 0 to 4 at x = 4: the left half is too near.
+  Image i = drawn({quad({Vec3(0, -1, 0), Vec3(4, -1, 4), Vec3(0, 9, 0), Vec3(4, 9, 4)}, kWhite, kWhite)}, s);
+  EXPECT_EQ(i.pixel(1, 1)[Image::kAlpha], 0);
+  EXPECT_EQ(i.pixel(2, 1)[Image::kAlpha], 1);
+}
+
+TEST(Hider, farthest_is_known_once_all_samples_are_closed) {
+  SampleBuffer b({0, 0, 4, 4}, settings());
+  EXPECT_EQ(b.farthest(), kInfinity);
+  b.draw(sheet(5, kWhite, kWhite * 0.5f));
+  EXPECT_EQ(b.farthest(), kInfinity);
+  b.draw(sheet(3, kWhite, kWhite));
+  EXPECT_EQ(b.farthest(), 3);
+  b.draw(sheet(2, kWhite, kWhite));
+  EXPECT_EQ(b.farthest(), 2);
+}
+
+TEST(Hider, an_aov_shows_the_nearest_surface) {
+  SamplingSettings s = settings();
+  s.aov_floats = 1;
+  ShadedGrid a = sheet(1, kWhite * 0.5f, kWhite * 0.5f), b = sheet(2, kWhite, kWhite);
+  a.aov_floats = b.aov_floats = 1;
+  a.aov.assign(4, 7.0f);
+  b.aov.assign(4, 9.0f);
+  EXPECT_FLOAT_EQ(drawn({a, b}, s).pixel(0, 0)[Image::kAov], 7);
+  EXPECT_FLOAT_EQ(drawn({b}, s).pixel(0, 0)[Image::kAov], 9);
+}
+
+} // namespace
+} // namespace render

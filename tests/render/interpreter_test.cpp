@@ -1,0 +1,202 @@
+// The graphics state: what requests do to it, and the text of its messages.
+#include "render_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace render::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The scene of the text's last world block.
+Scene scene_of(const std::string& rib) {
+  return render_text("Format 4 4 1\n" + rib).scene;
+}
+
+TEST(Interpreter, attributes_are_scoped_by_blocks) {
+  Scene s =
+      scene_of("WorldBegin Color 1 0 0 AttributeBegin Color 0 1 0 Sides 1 Sphere 1 -1 1 360 AttributeEnd "
+               "Sphere 1 -1 1 360 WorldEnd");
+  ASSERT_EQ(s.primitives.size(), 2u);
+  EXPECT_EQ(s.primitives[0].attributes().color, Color(0, 1, 0));
+  EXPECT_EQ(s.primitives[0].attributes().sides, 1);
+  EXPECT_EQ(s.primitives[1].attributes().color, Color(1, 0, 0));
+  EXPECT_EQ(s.primitives[1].attributes().sides, 2);
+}
+
+TEST(Interpreter, transform_blocks_keep_attributes) {
+  Scene s = scene_of("Translate 0 0 5 WorldBegin TransformBegin Translate 1 0 0 Color 1 0 0 TransformEnd "
+                     "Sphere 1 -1 1 360 WorldEnd");
+  ASSERT_EQ(s.primitives.size(), 1u);
+  EXPECT_EQ(s.primitives[0].attributes().color, Color(1, 0, 0));
+  EXPECT_EQ(transform_point(s.primitives[0].state->object_to_camera, Vec3{0, 0, 0}), Vec3(0, 0, 5));
+}
+
+TEST(Interpreter, transform_and_identity_are_relative_to_the_world) {
+  Scene s = scene_of("Translate 0 0 5 WorldBegin Transform [1 0 0 0 0 1 0 0 0 0 1 0 2 0 0 1] Disk 0 1 360 "
+                     "Identity Disk 0 1 360 WorldEnd");
+  EXPECT_EQ(transform_point(s.primitives[0].state->object_to_camera, Vec3{0, 0, 0}), Vec3(2, 0, 5));
+  EXPECT_EQ(transform_point(s.primitives[1].state->object_to_camera, Vec3{0, 0, 0}), Vec3(0, 0, 5));
+}
+
+TEST(Interpreter, coordinate_systems_are_global_and_scoped_ones_are_not) {
+  Scene s = scene_of(
+      "WorldBegin AttributeBegin Translate 3 0 0 CoordinateSystem \"a\" ScopedCoordinateSystem \"b\" "
+      "AttributeEnd CoordSysTransform \"a\" Disk 0 1 360 CoordSysTransform \"b\" WorldEnd");
+  EXPECT_EQ(transform_point(s.primitives[0].state->object_to_camera, Vec3{0, 0, 0}), Vec3(3, 0, 0));
+  EXPECT_THAT(messages_of("CoordSysTransform \"b\""), HasSubstr("no coordinate system is named \"b\""));
+}
+
+TEST(Interpreter, ndc_space_is_the_unit_square_of_the_image) {
+  Scene s = scene_of("WorldBegin CoordSysTransform \"NDC\" Disk 0 1 360 WorldEnd");
+  Vec3 corner = transform_point(s.primitives[0].state->object_to_camera, Vec3{0, 0, 0});
+  EXPECT_NEAR(corner.x, -1, 1e-6f);
+  EXPECT_NEAR(corner.y, 1, 1e-6f);
+}
+
+TEST(Interpreter, lights_are_listed_in_order_and_switched) {
+  Scene s = scene_of(
+      "WorldBegin LightSource \"a\" 1 LightSource \"b\" \"two\" Illuminate 1 0 Disk 0 1 360 WorldEnd");
+  const auto& lights = s.primitives[0].attributes().lights;
+  ASSERT_EQ(lights.size(), 1u);
+  EXPECT_EQ(lights[0]->name, "b");
+  EXPECT_THAT(messages_of("Illuminate 7 1"), HasSubstr("error: Illuminate: no light has the handle \"7\""));
+}
+
+TEST(Interpreter, frames_restore_options) {
+  Scene s = scene_of("FrameBegin 1 Format 8 8 1 Clipping 1 10 FrameEnd WorldBegin WorldEnd");
+  EXPECT_EQ(s.options.xres, 4);
+  EXPECT_NE(s.options.far_plane, 10);
+}
+
+TEST(Interpreter, objects_and_inline_archives_are_replayed) {
+  Scene s =
+      scene_of("WorldBegin ObjectBegin 1 Color 0 1 0 Disk 0 1 360 ObjectEnd Color 1 0 0 Translate 1 0 0 "
+               "ObjectInstance 1 Disk 0 1 360 ArchiveBegin \"a\" Translate 1 0 0 ArchiveEnd "
+               "ReadArchive \"a\" ArchiveInstance \"a\" Disk 0 1 360 WorldEnd");
+  ASSERT_EQ(s.primitives.size(), 3u);
+  EXPECT_EQ(s.primitives[0].attributes().color, Color(0, 1, 0));
+  EXPECT_EQ(s.primitives[1].attributes().color, Color(1, 0, 0));
+  EXPECT_EQ(transform_point(s.primitives[2].state->object_to_camera, Vec3{0, 0, 0}), Vec3(3, 0, 0));
+}
+
+TEST(Interpreter, archives_that_contain_themselves_end) {
+  EXPECT_THAT(messages_of("ArchiveBegin \"a\" ReadArchive \"a\" ArchiveEnd ReadArchive \"a\""),
+              HasSubstr("archives and instances are nested more than 64 deep"));
+}
+
+TEST(Interpreter, only_the_first_sample_of_a_motion_block_counts) {
+  Rendered r =
+      render_text("Format 4 4 1 WorldBegin MotionBegin [0 1] Translate 1 0 0 Translate 2 0 0 MotionEnd "
+                  "Disk 0 1 360 WorldEnd");
+  EXPECT_EQ(transform_point(r.scene.primitives[0].state->object_to_camera, Vec3{0, 0, 0}), Vec3(1, 0, 0));
+  EXPECT_THAT(r.messages, HasSubstr("MotionBegin is not supported yet: only the first sample"));
+}
+
+TEST(Interpreter, the_first_branch_of_a_condition_is_taken) {
+  Scene s =
+      scene_of("WorldBegin IfBegin \"1\" Disk 0 1 360 ElseIf \"0\" Disk 0 2 360 IfBegin \"x\" IfEnd Else "
+               "Disk 0 3 360 IfEnd WorldEnd");
+  EXPECT_EQ(s.primitives.size(), 1u);
+}
+
+TEST(Interpreter, requests_without_effect_are_named_once) {
+  std::string m = messages_of("WorldBegin\nPoints \"P\" [0 0 0]\nPoints \"P\" [0 0 0]\nWorldEnd");
+  EXPECT_THAT(m, HasSubstr("test.rib:2:1: warning: Points is not supported yet: the points are missing"));
+  EXPECT_THAT(m, Not(HasSubstr("test.rib:3:1")));
+  EXPECT_THAT(messages_of("Frobnicate 1 Frobnicate 2"), HasSubstr("warning: unknown request Frobnicate"));
+  EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
+  EXPECT_THAT(messages_of("Attribute \"trace\" \"bias\" .1"),
+              HasSubstr("Attribute \"trace\" has no effect yet"));
+  EXPECT_THAT(messages_of("Option \"statistics\" \"endofframe\" 1"),
+              HasSubstr("Option \"statistics\" has no effect"));
+  EXPECT_THAT(messages_of("Hider \"photon\""), HasSubstr("Hider \"photon\" is not supported yet"));
+}
+
+TEST(Interpreter, requests_in_the_wrong_place) {
+  EXPECT_THAT(
+      messages_of("Sphere 1 -1 1 360"),
+      HasSubstr("error: Sphere: this belongs between WorldBegin and WorldEnd; the request is skipped"));
+  EXPECT_THAT(messages_of("WorldBegin Format 1 1 1 WorldEnd"),
+              HasSubstr("error: Format: options cannot change inside a world block; the request is skipped"));
+  EXPECT_THAT(messages_of("AttributeEnd"), HasSubstr("AttributeEnd: there is no open AttributeBegin"));
+  EXPECT_THAT(messages_of("WorldBegin AttributeBegin WorldEnd"),
+              HasSubstr("WorldEnd: AttributeBegin is still open"));
+  EXPECT_THAT(messages_of("AttributeBegin WorldBegin AttributeEnd WorldEnd AttributeEnd"),
+              HasSubstr("AttributeEnd: there is no open AttributeBegin"));
+  EXPECT_THAT(messages_of("WorldBegin"), HasSubstr("nothing is rendered: WorldEnd is missing"));
+  EXPECT_THAT(messages_of("ObjectEnd"), HasSubstr("ObjectEnd: there is no open ObjectBegin"));
+  EXPECT_THAT(messages_of("Else"), HasSubstr("Else: there is no open IfBegin"));
+}
+
+TEST(Interpreter, values_out_of_range) {
+  const std::pair<const char*, const char*> kCases[] = {
+      {"Projection \"fisheye\"", "unknown projection \"fisheye\""},
+      {"Projection \"perspective\" \"fov\" 180", "\"fov\" takes one number between 0 and 180 degrees"},
+      {"Clipping 5 1", "the near plane (5) is not in front of the far one (1)"},
+      {"CropWindow .5 .5 0 1", "the window is empty"},
+      {"ScreenWindow 0 0 0 1", "the window has no area"},
+      {"PixelSamples 0 1", "expected 1 to 64 samples in each direction"},
+      {"PixelFilter \"bos\" 1 1", "unknown filter \"bos\"; known are box, triangle, gaussian"},
+      {"PixelFilter \"box\" 0 1", "expected widths above 0"},
+      {"Exposure 1 0", "gamma must be positive"},
+      {"Quantize \"rgba\" 255 255 0 .5", "min is larger than max"},
+      {"ShadingRate 0", "the shading rate must be positive"},
+      {"ShadingInterpolation \"flat\"", "\"flat\" is not \"constant\" or \"smooth\""},
+      {"Orientation \"up\"", "\"up\" is not \"outside\", \"inside\", \"lh\" or \"rh\""},
+      {"Sides 3", "a surface has 1 or 2 sides"},
+      {"Rotate 90 0 0 0", "the axis has no length"},
+      {"Skew 90 0 1 0 1 0 0", "the angle must be smaller than the angle between the two axes"},
+      {"Perspective 0", "the field of view must be between 0 and 180 degrees"},
+      {"Basis \"bspline\" 1 \"bezier\" 3", "unknown basis \"bspline\""},
+      {"Declare \"x\" \"varyin color\"", "\"varyin color\" is not a declaration"},
+      {"Declare \"x\" \"float[0]\"", "'0' is not an array length"},
+      {"Display \"a.tiff\" \"rgba\" \"x\"", "\"rgba\" is a mode; the type is missing"},
+      {"ReadArchive \"nowhere.rib\"", "no archive \"nowhere.rib\" in the search path \".\""},
+      {"WorldBegin ObjectInstance 1 WorldEnd", "no object \"1\" was recorded"},
+  };
+  for (auto [rib, message] : kCases)
+    EXPECT_THAT(messages_of(rib), HasSubstr(message)) << rib;
+}
+
+TEST(Interpreter, geometry_that_cannot_be) {
+  auto in_world = [](const std::string& rib) { return messages_of("WorldBegin " + rib + " WorldEnd"); };
+  const std::pair<const char*, const char*> kCases[] = {
+      {"Sphere 0 -1 1 360", "Sphere: the radius is zero: there is no surface"},
+      {"Sphere 1 -1 1 0", "Sphere: thetamax is zero: there is no surface"},
+      {"Sphere 1 1 1 360", "Sphere: zmin equals zmax: there is no surface"},
+      {"Paraboloid 1 -1 1 360", "Paraboloid: zmin and zmax lie on two sides of the apex"},
+      {"Sphere 1 -1 1 360 \"Cs\" [1 0 0]", "Sphere: \"Cs\" (varying color) takes 12 numbers, found 3"},
+      {"Sphere 1 -1 1 360 \"foo\" [1]", "Sphere: \"foo\" is not declared"},
+      {"Sphere 1 -1 1 360 \"widht\" [1]", "\"widht\" is not declared; did you mean \"width\"?"},
+      {"Sphere 1 -1 1 360 \"varying string x\" [\"a\" \"b\" \"c\" \"d\"]",
+       "is a string and cannot be varying"},
+      {"Polygon \"N\" [0 0 1]", "Polygon: \"P\" is missing"},
+      {"Polygon \"P\" [0 0 0 1 1 1]", "a polygon has at least 3 vertices, found 2"},
+      {"PointsPolygons [2] [0 1] \"P\" [0 0 0 1 1 1]", "a polygon has at least 3 vertices, found 2"},
+      {"PointsPolygons [3] [0 1] \"P\" [0 0 0 1 1 1]", "'nvertices' asks for 3 vertex numbers, found 2"},
+      {"PointsPolygons [3] [0 1 -2] \"P\" [0 0 0]", "-2 is not a vertex number; these start at 0"},
+      {"PointsPolygons [3] [0 1 2] \"P\" [0 0 0]", "\"P\" (vertex point) takes 9 numbers, found 3"},
+      {"Patch \"bicubic\" \"P\" [0 0 0]", "\"P\" (vertex point) takes 48 numbers, found 3"},
+      {"Patch \"cubic\" \"P\" [0 0 0]", "unknown type \"cubic\""},
+  };
+  for (auto [rib, message] : kCases)
+    EXPECT_THAT(in_world(rib), HasSubstr(message)) << rib;
+}
+
+TEST(Interpreter, declarations_of_all_forms) {
+  Scene s = scene_of("Declare \"heat\" \"varying float\" WorldBegin Sphere 1 -1 1 360 \"heat\" [0 1 2 3] "
+                     "\"constant float foo\" [.1] \"varying float[2] bar2\" [0 0 1 1 2 2 3 3] "
+                     "\"uniform   string name\" [\"x\"] WorldEnd");
+  const auto& vars = s.primitives[0].vars;
+  ASSERT_EQ(vars.size(), 4u);
+  EXPECT_EQ(vars[0].name, "heat");
+  EXPECT_EQ(vars[1].interpolation, Interpolation::kConstant);
+  EXPECT_EQ(vars[2].elements, 2u);
+  EXPECT_EQ(vars[3].strings[0], "x");
+}
+
+} // namespace
+} // namespace render::testing
