@@ -16,11 +16,11 @@ HWY_BEFORE_NAMESPACE();
 namespace slvm {
 namespace HWY_NAMESPACE {
 
-inline void concat_s(const Operand* operands, uint32_t count, size_t, const KernelContext& context) {
+inline void concat_s(const Operand* operands, uint32_t count, size_t lanes, const KernelContext& context) {
   std::string text;
   for (uint32_t i = 1; i < count; ++i)
     text += string_operand(operands[i], context);
-  store_string(operands[0], text, context);
+  store_string(operands[0], lanes, text, context);
 }
 
 inline void match_ss(const Operand* operands, uint32_t, size_t lanes, const KernelContext& context) {

@@ -4,6 +4,7 @@
 #include "slvm/support/string_pool.h"
 #include "slvm/wide/operand.h"
 
+#include <algorithm>
 #include <bit>
 #include <string_view>
 
@@ -13,10 +14,9 @@ inline std::string_view string_operand(const Operand& o, const KernelContext& co
   return context.strings->text(std::bit_cast<uint32_t>(o.data[0]));
 }
 
-inline void store_string(const Operand& o, std::string_view text, const KernelContext& context) {
-  float id = std::bit_cast<float>(context.strings->intern(text));
-  for (size_t lane = 0; lane < kMaxLanes; ++lane)
-    o.data[lane] = id;
+inline void store_string(const Operand& o, size_t lanes, std::string_view text,
+                         const KernelContext& context) {
+  std::fill_n(o.data, lanes, std::bit_cast<float>(context.strings->intern(text)));
 }
 
 constexpr char lower_letter(char c) {

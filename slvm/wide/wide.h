@@ -83,8 +83,9 @@ HWY_INLINE Float operator-(Float a) {
 HWY_INLINE Bool operator==(Float a, Float b) {
   return {hn::Eq(a.v, b.v)};
 }
+/// True for NaN, on every target: the instructions Ne stands for differ in that.
 HWY_INLINE Bool operator!=(Float a, Float b) {
-  return {hn::Ne(a.v, b.v)};
+  return {hn::Not(hn::Eq(a.v, b.v))};
 }
 HWY_INLINE Bool operator<(Float a, Float b) {
   return {hn::Lt(a.v, b.v)};
