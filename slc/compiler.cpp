@@ -27,11 +27,9 @@ CheckedSource Compiler::check(slvm::FileId main, const CompileOptions& options, 
   CheckedSource checked;
   if (!builtins_error_.empty()) diags.error({}, "in the built-in functions: " + builtins_error_);
   checked.text = preprocess(main, options, sources, diags);
-  TokenList tokens = lex(checked.text, diags);
-  // After an error of the preprocessor text may be missing: what follows from that is no news.
-  bool complete = !diags.has_errors();
-  checked.unit = parse(std::move(tokens), diags);
-  if (complete || !diags.has_errors()) analyse(checked.unit, builtins_, diags);
+  if (diags.has_errors()) return checked; // text is missing: what would follow from that is no news
+  checked.unit = parse(lex(checked.text, diags), diags);
+  analyse(checked.unit, builtins_, diags);
   return checked;
 }
 

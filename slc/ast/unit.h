@@ -21,9 +21,8 @@ struct Variable {
   SourceRange where;
   Type type = Type::kVoid;
   int array_length = kNotArray; ///< kOpenArray for formals `T a[]` only
-  /// As declared; without a declaration (`detail_given` false): parameters uniform, locals and formals as
-  /// inferred, an upper estimate over all inlinings. A declared uniform may be assigned in loops some lanes
-  /// have left and under light loops; it then gets the value of the active lanes.
+  /// As declared; without a declaration (`detail_given` false) parameters are uniform, locals and formals as inferred.
+  /// A local declared uniform can vary in fact: when it is set under varying control, which is a warning.
   Detail detail = Detail::kUniform;
   bool detail_given = false;
   bool output = false;

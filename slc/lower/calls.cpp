@@ -19,7 +19,7 @@ slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
   std::vector<ValueId> actuals(f.formals.size(), ir::kNoValue);
   for (size_t i = 0; i < f.formals.size(); ++i) {
     const Variable& formal = *f.formals[i];
-    const Expr& actual = *e.args[i];
+    const Expr& actual = i < e.args.size() ? *e.args[i] : *formal.init; // an absent token's value
     if (formal.array_length != kNotArray) {
       arrays_[&formal] = array_of(*static_cast<const VariableExpr&>(actual).variable);
     } else if (formal.output) {

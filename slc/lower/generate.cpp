@@ -21,7 +21,7 @@ std::vector<CompiledShader> Compiler::compile(slvm::FileId main, const CompileOp
 std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slvm::FileId main, const CompileOptions& options,
                                                const slvm::SourceManager& sources) const {
   std::vector<std::string> files;
-  for (slvm::FileId id = 0; id == 0 || !sources.name(id).empty(); ++id) files.emplace_back(sources.name(id));
+  for (slvm::FileId id = 0; id < sources.count(); ++id) files.emplace_back(sources.name(id));
   std::vector<CompiledShader> out;
   for (const Shader& shader : checked.unit.shaders) {
     CompiledShader& compiled = out.emplace_back();

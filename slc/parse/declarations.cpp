@@ -55,10 +55,7 @@ void Parser::parse_shader() {
   shader.name = current().text;
   shader.where = current().range;
   advance();
-  expect(TokenKind::kLeftParen, "'('");
   shader.params = parse_formals(VariableKind::kParameter);
-  expect(TokenKind::kRightParen, "')' or ';' and another parameter");
-  if (panic_) synchronise();
   shader.body = parse_block();
 }
 
@@ -97,17 +94,16 @@ FunctionDef* Parser::parse_function() {
   function.name = current().text;
   function.where = current().range;
   advance();
-  expect(TokenKind::kLeftParen, "'('");
   function.formals = parse_formals(VariableKind::kFormal);
-  expect(TokenKind::kRightParen, "')'");
-  if (panic_) synchronise();
   function.body = parse_block();
   return &function;
 }
 
-// formals = fgroup { ( ";" | "," ) fgroup } [ ";" ] ;
+// "(" [ formals ] ")", formals = fgroup { ( ";" | "," ) fgroup } [ ";" ] ;
 std::vector<Variable*> Parser::parse_formals(VariableKind kind) {
   std::vector<Variable*> formals;
+  size_t open = at_;
+  expect(TokenKind::kLeftParen, "'('");
   while (take(TokenKind::kSemicolon)) {}
   while (!panic_ && !at(TokenKind::kRightParen) && !at_end()) {
     parse_formal_group(kind, formals);
@@ -115,6 +111,8 @@ std::vector<Variable*> Parser::parse_formals(VariableKind kind) {
     while (take(TokenKind::kSemicolon) || take(TokenKind::kComma)) separated = true;
     if (!separated) break;
   }
+  expect(TokenKind::kRightParen, "')' or ';'");
+  if (panic_) skip_formals(open);
   return formals;
 }
 

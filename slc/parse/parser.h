@@ -87,6 +87,7 @@ private:
   void synchronise();
   /// Skips a balanced { } or ( ), the current token being its first.
   void skip_balanced();
+  void skip_formals(size_t open);
   bool at_shader_start() const;
   bool at_statement_word() const;
   std::string describe_current() const;

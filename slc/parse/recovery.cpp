@@ -94,6 +94,16 @@ void Parser::skip_balanced() {
   } while (depth > 0 && !at_end());
 }
 
+// From the '(' at `open` to behind its ')', or to the block if there is none.
+void Parser::skip_formals(size_t open) {
+  panic_ = false;
+  int depth = 0;
+  for (at_ = open; !at_end() && !at(TokenKind::kLeftBrace); advance()) {
+    if (at(TokenKind::kLeftParen)) ++depth;
+    if (at(TokenKind::kRightParen) && --depth == 0) return advance();
+  }
+}
+
 void Parser::too_deep() {
   fail(Msg::kTooDeep, kMaxNesting);
   // Nothing sensible follows: end the file here.

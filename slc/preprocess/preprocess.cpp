@@ -6,6 +6,7 @@
 #include "slc/preprocess/normalise.h"
 #include "slc/preprocess/wave.h"
 
+#include <algorithm>
 #include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
@@ -138,6 +139,10 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
     if (!sources_.find(path)) file_ids_[path] = sources_.add(path, std::move(*text));
     return true;
   }
+  std::vector<std::string> named; // each once
+  for (const std::string& folder : folders)
+    if (std::find(named.begin(), named.end(), folder) == named.end()) named.push_back(folder);
+  folders = std::move(named);
   for (std::string& folder : folders)
     folder = folder.empty() ? "'./'" : fmt::format("'{}'", folder);
   report(diags_, Msg::kMissingInclude, where, name, folders.empty() ? "no folder" : fmt::format("{}", fmt::join(folders, ", ")));
@@ -280,8 +285,6 @@ void define_macros(Context& context, const PreprocessOptions& options) {
   };
   for (const std::string& define : options.defines)
     if (!undefined(name_of(define))) context.add_macro_definition(define);
-  for (std::string_view name : {"__cplusplus", "__STDC__", "__STDC_VERSION__", "__STDC_HOSTED__"})
-    context.remove_macro_definition(std::string(name), true);
 }
 
 void run(Context& context, State& state) {

@@ -150,7 +150,7 @@ void Checker::finish_call(ExprPtr& e, Type wanted) {
 
 void Checker::finish_argument(CallExpr& call, size_t i, const Param& p) {
   ExprPtr& arg = call.args[i];
-  if (p.output) return finish_place(arg, p, call.name);
+  if (p.output) return finish_output(arg, p, call.name);
   if (p.array_length != kNotArray) return finish(arg, p.any ? Type::kVoid : p.type);
   if (!p.any) return finish_as(arg, p.type, {Purpose::kArgument, call.name});
   finish(arg, wanted_by_pattern(call, i));
@@ -159,17 +159,17 @@ void Checker::finish_argument(CallExpr& call, size_t i, const Param& p) {
 }
 
 // An argument that is stored to.
-void Checker::finish_place(ExprPtr& arg, const Param& p, std::string_view callee) {
-  finish(arg, p.any ? Type::kVoid : p.type);
-  if (set_of(*arg).is_error()) return;
+void Checker::finish_output(ExprPtr& arg, const Param& p, std::string_view callee) {
+  if (set_of(*arg).is_error()) return finish(arg, p.type);
   Variable* v = nullptr;
   if (auto* name = as<VariableExpr>(arg.get())) v = name->variable;
   if (auto* element = as<IndexExpr>(arg.get())) v = element->variable;
   if (!v) {
     report(diags_, Msg::kOutputNotPlace, arg->range, p.name, callee);
-    return;
+    return finish(arg, p.type);
   }
-  if (check_writable(*v, arg->range)) usage_.written(*v);
+  finish_place(arg);
+  if (check_writable(*v, arg->range)) usage_.passed(*v);
   spaces_.erase(v);
 }
 
@@ -199,7 +199,7 @@ void Checker::finish_token(ExprPtr token, ExprPtr value, std::string_view set, s
   if (pair.info && pair.info->output) {
     Param place{.type = pair.info->type, .any = pair.info->any, .output = true, .name = pair.info->name};
     bool fits = pair.info->any || conversion_cost(set_of(*value), pair.info->type) <= 1;
-    finish_place(value, place, callee);
+    finish_output(value, place, callee);
     if (!fits && !set_of(*value).is_error())
       report(diags_, Msg::kTokenType, value->range, constant->value, slvm::type_name(pair.info->type),
              slvm::type_name(value->type));

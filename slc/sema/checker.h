@@ -81,6 +81,7 @@ private:
   Variable* resolve(std::string_view name, SourceRange where);
   void report_unknown_variable(std::string_view name, SourceRange where);
   void finish(ExprPtr&, Type wanted);
+  void finish_place(ExprPtr&);
   void finish_tuple(TupleExpr&, Type wanted);
   void finish_operator(OperatorExpr&, Type wanted);
   void finish_conditional(ConditionalExpr&, Type wanted);
@@ -107,7 +108,7 @@ private:
   void report_unknown_function(const CallExpr&);
   void finish_call(ExprPtr&, Type wanted);
   void finish_argument(CallExpr&, size_t i, const Param&);
-  void finish_place(ExprPtr&, const Param&, std::string_view callee);
+  void finish_output(ExprPtr&, const Param&, std::string_view callee);
   void finish_tokens(CallExpr&, const Candidate&);
   void finish_token(ExprPtr token, ExprPtr value, std::string_view set, std::string_view callee,
                     std::vector<TokenArg>& out);
@@ -142,7 +143,8 @@ private:
   std::set<const FunctionDef*> open_functions_; // being checked: calling one is recursion
   const FunctionDef* function_ = nullptr;       // the innermost; null in a shader's own body
   bool returned_value_ = false;
-  int loops_ = 0; // around the statement, in the same function
+  int light_loops_ = 0; // illuminance, illuminate and solar around the expression, in the text
+  int loops_ = 0;       // around the statement, in the same function
   std::map<const Variable*, std::string> spaces_; // space a variable's value was transformed to, where known
 };
 

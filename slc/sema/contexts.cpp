@@ -2,8 +2,8 @@
 // nothing changes, and once more to report. Read ContextWalk::run first.
 //
 // Control that some lanes have left counts as varying. There are two degrees: under a varying condition or in gather
-// (hard), and in light loops or after a varying break or return (soft). Only hard control makes it an error to
-// assign to a declared uniform; both make an undeclared variable varying.
+// (hard), and in light loops or after a varying break or return (soft). A variable set there varies from then on, as
+// it does in the IR; for a declared uniform that is worth a warning where the control is hard.
 #include "slc/sema/contexts.h"
 
 #include "slc/diag/messages.h"
@@ -342,12 +342,15 @@ void ContextWalk::check_global(const Variable& v, bool store, SourceRange where)
 
 void ContextWalk::store_variable(VarState& s, bool varying, SourceRange where, std::string_view name) {
   const Variable& v = *s.declared;
-  if (always_uniform(v)) {
-    if (varying) complain(Msg::kVaryingToUniform, where, name);
-    else if (hard_ > s.hard) complain(Msg::kUniformUnderVarying, where, name);
+  bool some_points = control() > s.hard + s.soft; // only
+  if (!always_uniform(v)) {
+    if (varying || some_points) mark(s.varying);
     return;
   }
-  if (varying || control() > s.hard + s.soft) mark(s.varying);
+  if (hard_ > s.hard) complain(Msg::kUniformUnderVarying, where, name);
+  // Set at some points only, it varies in fact; what follows from that is no error.
+  if (some_points && v.type != Type::kString) mark(s.varying);
+  else if (varying && !s.varying) complain(Msg::kVaryingToUniform, where, name);
 }
 
 void ContextWalk::store(Expr& place, bool varying, SourceRange where) {

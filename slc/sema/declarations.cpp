@@ -37,7 +37,7 @@ void Checker::check_unit() {
     check_shader(*d.shader);
   }
   scopes_.leave();
-  if (!in_library_) usage_.report(diags_);
+  if (!in_library_ && !diags_.has_errors()) usage_.report(diags_);
 }
 
 Variable* Checker::global_variable(Global g) {
@@ -173,8 +173,7 @@ void Checker::declare_extern(Variable*& slot) {
     if (wanted.name == "PI") return;
     report(diags_, Msg::kExternUnknown, wanted.where, wanted.name);
     declare(wanted);
-    usage_.written(wanted);
-    usage_.read(wanted, wanted.where);
+    usage_.passed(wanted);
     return;
   }
   if (found->type != wanted.type || (found->array_length == kNotArray) != (wanted.array_length == kNotArray)) {

@@ -62,7 +62,9 @@ Variable* Checker::resolve(std::string_view name, SourceRange where) {
   Variable* hidden = scopes_.in_function() ? scopes_.find_outside(name) : nullptr;
   if (global != Global::kCount && !hidden) {
     hidden = global_variable(global);
-    if (!scopes_.in_function()) return hidden;
+    // A light loop brings its own variables, in functions too.
+    bool of_light = global == Global::kL || global == Global::kCl || global == Global::kOl;
+    if (!scopes_.in_function() || (of_light && light_loops_ > 0)) return hidden;
   }
   if (!hidden) {
     report_unknown_variable(name, where);
@@ -77,7 +79,6 @@ TypeSet Checker::analyse_name(VariableExpr& e) {
   if (e.name == "PI" && !scopes_.find("PI")) return Type::kFloat; // finish() makes it a number
   e.variable = resolve(e.name, e.range);
   if (!e.variable) return TypeSet::error();
-  usage_.read(*e.variable, e.range);
   e.array_length = e.variable->array_length;
   return e.variable->type;
 }
@@ -86,7 +87,6 @@ TypeSet Checker::analyse_index(IndexExpr& e) {
   analyse(*e.index);
   e.variable = resolve(e.name, e.range);
   if (!e.variable) return TypeSet::error();
-  usage_.read(*e.variable, e.range);
   if (e.variable->array_length == kNotArray) {
     report(diags_, Msg::kNotAnArray, e.range, e.name);
     return TypeSet::error();
@@ -197,7 +197,6 @@ TypeSet Checker::analyse_assign(AssignExpr& e) {
   if (v && e.target->array_length != kNotArray && !list)
     report(diags_, Msg::kArrayAssigned, e.range, v->name), target = TypeSet::error();
   if (e.compound && !target.is_error()) {
-    usage_.read(*v, e.target->range);
     auto combined = std::make_unique<OperatorExpr>(e.range);
     combined->op = e.op;
     auto old = std::make_unique<TargetValueExpr>(e.target->range);
@@ -211,11 +210,14 @@ TypeSet Checker::analyse_assign(AssignExpr& e) {
   } else {
     analyse(*e.value);
   }
-  if (v) {
-    check_writable(*v, e.target->range);
-    usage_.written(*v);
-  }
+  if (v) check_writable(*v, e.target->range);
   return target;
+}
+
+// A place of known type: only an index has something to pick.
+void Checker::finish_place(ExprPtr& e) {
+  e->type = set_of(*e).preferred();
+  if (auto* element = as<IndexExpr>(e.get())) finish_as(element->index, Type::kFloat, {Purpose::kIndex, ""});
 }
 
 // Picks types from here down. `wanted` is what the context would like; kVoid: anything.
@@ -234,8 +236,12 @@ void Checker::finish(ExprPtr& e, Type wanted) {
       replace(e, std::move(pi));
       return;
     }
+    usage_.read(*as<VariableExpr>(e.get())->variable, e->range);
     break;
-  case ExprKind::kIndex: finish_as(as<IndexExpr>(e.get())->index, Type::kFloat, {Purpose::kIndex, ""}); break;
+  case ExprKind::kIndex:
+    usage_.read(*as<IndexExpr>(e.get())->variable, e->range);
+    finish_place(e);
+    return;
   case ExprKind::kTuple: return finish_tuple(*as<TupleExpr>(e.get()), wanted);
   case ExprKind::kOperator: return finish_operator(*as<OperatorExpr>(e.get()), wanted);
   case ExprKind::kLogical: {
@@ -284,9 +290,10 @@ void Checker::finish_conditional(ConditionalExpr& e, Type wanted) {
 void Checker::finish_assign(AssignExpr& e) {
   const Variable* v = e.target->kind == ExprKind::kVariable ? as<VariableExpr>(e.target.get())->variable
                                                             : as<IndexExpr>(e.target.get())->variable;
-  finish(e.target, v->type);
-  e.target->type = v->type;
+  finish_place(e.target);
+  if (e.compound) usage_.read(*v, e.target->range);
   if (e.value->kind != ExprKind::kArrayInit) finish_as(e.value, v->type, {Purpose::kAssignment, v->name});
+  usage_.written(*v);
   if (e.target->kind == ExprKind::kVariable) spaces_[v] = e.compound ? "" : space_of(*e.value);
 }
 

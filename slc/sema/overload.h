@@ -18,7 +18,7 @@ struct Param {
   bool any = false;             ///< a value of any type
   bool output = false, input = true;
   bool uniform = false;
-  std::string_view name;
+  std::string_view name = {};
 };
 
 /// A function of the source, or a row of the table.

@@ -122,7 +122,9 @@ void Checker::check_illuminance(IlluminanceStmt& s) {
     split_tokens(s.args, positional, "illuminance", "illuminance", s.tokens);
   }
   s.args.clear();
+  ++light_loops_;
   check_loop_body(s.body);
+  --light_loops_;
 }
 
 void Checker::check_axis_and_angle(std::vector<ExprPtr>& args, size_t first, ExprPtr& axis, ExprPtr& angle) {
@@ -147,7 +149,9 @@ void Checker::check_emission(EmissionStmt& s) {
     if (s.args.size() == first + 2) check_axis_and_angle(s.args, first, s.axis, s.angle);
   }
   s.args.clear();
+  ++light_loops_;
   check_scoped(s.body);
+  --light_loops_;
 }
 
 // gather(category, position, direction, angle, samples [, tokens]), traverse(category, position, direction [, tokens])

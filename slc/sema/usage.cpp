@@ -25,6 +25,11 @@ void Usage::written(const Variable& v) {
   if (it != index_.end()) uses_[it->second].written = true;
 }
 
+void Usage::passed(const Variable& v) {
+  auto it = index_.find(&v);
+  if (it != index_.end()) uses_[it->second].written = uses_[it->second].read = true;
+}
+
 void Usage::report(slvm::Diagnostics& diags) const {
   for (const Use& use : uses_) {
     const Variable& v = *use.variable;

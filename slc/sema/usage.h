@@ -13,6 +13,8 @@ public:
   void declared(const Variable&);
   void read(const Variable&, SourceRange where);
   void written(const Variable&);
+  /// Given to a call that stores to it: that counts as use and as setting.
+  void passed(const Variable&);
   void enter_loop() { ++loops_; }
   void leave_loop() { --loops_; }
   /// Reads and writes in a nested function happen when it is called: their order in the text says nothing.
