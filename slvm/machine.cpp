@@ -65,7 +65,7 @@ void bind_params(Instance::Bound& bound, const Program& program, const BoundValu
   for (size_t i = 0; i < program.params.size(); ++i) {
     const Param& p = program.params[i];
     if (!values[i]) {
-      if (p.init >= 0) bound.init_sections.push_back(p.init);
+      if (p.init >= 0) bound.defaults.emplace_back(static_cast<uint32_t>(p.init), static_cast<uint32_t>(p.slot));
       continue;
     }
     std::vector<float> numbers = values[i]->numbers;

@@ -35,7 +35,8 @@ struct Instance::Bound {
   PlaneMemory constants;            ///< kMaxLanes floats a plane
   PlaneMemory params;               ///< values of parameters that have one
   std::vector<Planes> param_planes; ///< by slot; data null: no value here (a predefined variable, or computed by init)
-  std::vector<int32_t> init_sections; ///< defaults to compute at the begin of each run
+  /// Defaults to compute at the begin of each run: code section, and slot of the parameter.
+  std::vector<std::pair<uint32_t, uint32_t>> defaults;
   struct Import {
     Kernel kernel = nullptr;
     GridOp grid_op = nullptr;

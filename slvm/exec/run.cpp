@@ -26,7 +26,8 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal) {
 
 void ShaderRun::execute() {
   Frame frame = frame_;
-  for (int32_t section : bound.init_sections) execute_code(frame, mask, program.sections[static_cast<size_t>(section)]);
+  for (auto [section, slot] : bound.defaults) // not where a primitive variable gives the value
+    if (!primvar_for(slot)) execute_code(frame, mask, program.sections[section]);
   execute_code(frame, mask, program.sections[0]);
 }
 
@@ -71,11 +72,16 @@ Planes ShaderRun::take_copy(const Slot& slot, const Planes& from) {
   return to;
 }
 
+const Planes* ShaderRun::primvar_for(size_t i) const {
+  const Slot& slot = program.slots[i];
+  const Planes* primvar = state.grid->primvar(slot.name);
+  return primvar && primvar->type == slot.type && primvar->elements == slot.elements ? primvar : nullptr;
+}
+
 Planes ShaderRun::bind_parameter(size_t i) {
   const Slot& slot = program.slots[i];
-  Planes value = bound.param_planes[i];
-  const Planes* primvar = state.grid->primvar(slot.name);
-  if (primvar && primvar->type == slot.type && primvar->elements == slot.elements) value = *primvar;
+  const Planes* primvar = primvar_for(i);
+  Planes value = primvar ? *primvar : bound.param_planes[i];
   // A uniform parameter takes its value at the first point of a varying primitive variable.
   bool must_copy = slot.stored || !value.data || (value.step && !slot.varying);
   return must_copy ? take_copy(slot, value) : value;

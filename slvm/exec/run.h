@@ -73,6 +73,8 @@ public:
 private:
   void bind_registers();
   Planes bind_parameter(size_t slot);
+  /// The primitive variable that overrides the parameter of a slot, or null.
+  const Planes* primvar_for(size_t slot) const;
   Planes bind_variable(Global g, bool stored, const Operand* position, const Operand* normal);
   Planes default_variable(Global g);
   Planes lattice(Global g);

@@ -194,6 +194,14 @@ private:
     fail(at, "an operand in no known space");
   }
 
+  // Code sections behind the first store the default of their parameter, whatever the shader does with it.
+  bool computes_default_of(uint32_t slot) const {
+    for (const Param& param : p_.params)
+      if (param.slot == static_cast<int32_t>(slot) && param.init > 0 && p_.sections[static_cast<size_t>(param.init)] == begin_)
+        return true;
+    return false;
+  }
+
   void check_register(uint32_t at, uint32_t word, uint32_t planes, bool stored) const {
     uint64_t end = uint64_t{operand_index(word)} + planes;
     uint32_t index = operand_index(word);
@@ -215,7 +223,7 @@ private:
       if (index >= p_.slots.size() || p_.slots[index].elements ||
           static_cast<uint32_t>(components(p_.slots[index].type)) != planes)
         fail(at, "a variable out of bounds");
-      if (stored && !p_.slots[index].stored) fail(at, "a store to a read-only variable");
+      if (stored && !p_.slots[index].stored && !computes_default_of(index)) fail(at, "a store to a read-only variable");
       return;
     case Space::kArray: break;
     }
@@ -297,7 +305,8 @@ private:
 
   const ArrayInfo& check_writable_array(uint32_t at, uint32_t word) const {
     const ArrayInfo& a = check_array(at, word);
-    if (a.space == Space::kSlot && !p_.slots[a.index].stored) fail(at, "a store to a read-only array");
+    if (a.space == Space::kSlot && !p_.slots[a.index].stored && !computes_default_of(a.index))
+      fail(at, "a store to a read-only array");
     return a;
   }
 

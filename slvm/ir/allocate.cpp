@@ -16,6 +16,7 @@ public:
     for (LowReg& r : code_.regs)
       if (r.varying) r.space = r.block >= 0 ? Space::kStrip : Space::kGrid;
     scan();
+    drop_empty_strips();
   }
 
 private:
@@ -111,6 +112,14 @@ private:
     r.index = source.index;
     inst.removed = true;
     return true;
+  }
+
+  void drop_empty_strips() {
+    for (auto [begin, end] : strips_) {
+      bool empty = true;
+      for (uint32_t i = begin + 1; i < end; ++i) empty &= code_.insts[i].removed;
+      if (empty) code_.insts[begin].removed = code_.insts[end].removed = true;
+    }
   }
 
   LowCode& code_;

@@ -135,6 +135,11 @@ private:
     ends_.push_back({});
     for (const InstAction& action : actions) perform(action);
     in_strip_ = false;
+    if (out_.insts.size() == begin + 1) { // all of it was copies of values to themselves
+      out_.insts.pop_back();
+      ends_.pop_back();
+      return;
+    }
     uint32_t end = add(Opcode::k_endstrip, {});
     close(end);
     out_.insts[begin].operands[0] = target(end);
@@ -238,7 +243,8 @@ private:
     if (in_strip_ || is_alias(id) || is_terminator(m_.insts[id].op)) {
       emit_inst(id);
     } else if (!strippable(id)) {
-      flush();
+      // Loops and light blocks begin with copies, which join the strips gathered so far.
+      if (!begins_with_copies(m_.insts[id].op)) flush();
       emit_inst(id);
     } else if (all_uniform(id)) {
       // A uniform value can come out of the strips being gathered, and loads of arrays stay behind stores.
@@ -248,6 +254,8 @@ private:
       pending_.push_back({id, {}, {}, {}, false, where_});
     }
   }
+
+  static bool begins_with_copies(Op op) { return is_loop(op) || op == Op::kIlluminate || op == Op::kSolar; }
 
   /// Instructions that only name something: no code, in any place.
   bool is_alias(InstId id) const {
@@ -497,11 +505,9 @@ private:
 
   void emit_illuminance(InstId id) {
     const Inst& inst = m_.insts[id];
-    flush();
-    std::vector<LowOperand> fixed;
-    fixed.push_back(use_uniform(inst.args[0]));
-    for (uint32_t i = 1; i < 4; ++i) fixed.push_back(use(inst.args[i]));
     frames_.push_back({&inst, begin_carried(inst)});
+    std::vector<LowOperand> fixed{use_uniform(inst.args[0])};
+    for (uint32_t i = 1; i < 4; ++i) fixed.push_back(use(inst.args[i]));
     uint32_t begin = add(Opcode::k_illuminance, {target(0), word(inst.index), fixed[0], fixed[1], fixed[2], fixed[3]});
     open_mask();
     for (ValueId p : inst.regions[0].params) level_[p] = depth();

@@ -34,6 +34,8 @@ public:
   FileId add(std::string name, std::string text);
   /// The id of the file of this name, if it was added.
   FileId find(std::string_view name) const;
+  /// Ids in use are 1 to count() - 1.
+  size_t count() const { return files_.size(); }
   std::string_view name(FileId) const;
   std::string_view text(FileId) const;
   /// Line `line` (from 1) without its line end; empty when there is none. LF, CR and CRLF all end lines.

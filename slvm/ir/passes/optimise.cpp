@@ -14,6 +14,7 @@ void optimise(Module& m, int level, const ConstantEvaluator* evaluator) {
       bool changed = propagate_copies(m);
       changed |= fold_constants(m, evaluator);
       changed |= merge_common(m);
+      changed |= drop_idle_stores(m);
       changed |= remove_dead(m);
       if (level >= 2 && round == 0) {
         changed |= hoist_invariants(m);

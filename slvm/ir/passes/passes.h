@@ -29,6 +29,8 @@ bool merge_common(Module&);
 bool remove_dead(Module&);
 /// Moves computations out of loops that do not change there.
 bool hoist_invariants(Module&);
+/// Removes stores to variables that only ever store what was there.
+bool drop_idle_stores(Module&);
 /// Turns small ifs without effects into selections of both sides' values.
 bool select_small_ifs(Module&);
 
