@@ -1,0 +1,30 @@
+# What `cmake --install` puts where: programs, the libraries with their headers, CMake packages `slvm` and `slc`,
+# shaders and RSL headers. Included last, when all targets exist.
+include(CMakePackageConfigHelpers)
+
+# sl_package(NAME targets...): exports targets as NAME::..., with NAME-config.cmake from cmake/.
+function(sl_package package)
+  set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/${package})
+  foreach(target IN LISTS ARGN)
+    string(REGEX REPLACE "^${package}_" "" name ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  endforeach()
+  install(TARGETS ${ARGN} EXPORT ${package}-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/anemone)
+  install(EXPORT ${package}-targets NAMESPACE ${package}:: DESTINATION ${folder})
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/${package}-config.cmake.in
+    ${PROJECT_BINARY_DIR}/cmake/${package}-config.cmake INSTALL_DESTINATION ${folder})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/cmake/${package}-config-version.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/cmake/${package}-config.cmake
+    ${PROJECT_BINARY_DIR}/cmake/${package}-config-version.cmake DESTINATION ${folder})
+endfunction()
+
+sl_package(slvm slvm slvm_ir slvm_kernels slvm_wide slvm_format slvm_support)
+sl_package(slc slc)
+
+install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
+set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/anemone\")")
+install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake)
+
+install(DIRECTORY stdlib/include/ DESTINATION ${CMAKE_INSTALL_DATADIR}/anemone/include)
+install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/anemone/shaders FILES_MATCHING PATTERN "*.sl")
