@@ -88,6 +88,8 @@ void bind_variables(Instance::Bound& bound, const Program& program) {
 // Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot serve.
 std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels) {
   std::vector<bool> called(program.imports.size());
+  size_t emitters = 0;
+  bool loops = false;
   for (uint32_t at = 0; at < program.code.size(); at += 1 + instruction_words(program.code[at])) {
     uint16_t opcode = instruction_opcode(program.code[at]);
     if (opcode >= kFirstShadeop) {
@@ -95,8 +97,11 @@ std::string bind_code(Instance::Bound& bound, const Program& program, const Kern
       bound.most_operands = std::max<size_t>(bound.most_operands, instruction_words(program.code[at]));
     }
     auto op = static_cast<Opcode>(opcode);
-    bound.emits |= op == Opcode::k_illuminate || op == Opcode::k_solar;
+    emitters += op == Opcode::k_illuminate || op == Opcode::k_solar;
+    loops |= op == Opcode::k_loop; // a block may then run several times
   }
+  bound.emits = emitters > 0;
+  bound.emits_once = emitters == 1 && !loops;
   for (size_t i = 0; i < program.imports.size(); ++i) {
     ShadeopId id = program.imports[i];
     const ShadeopInfo& info = shadeop(id);

@@ -46,6 +46,7 @@ struct Instance::Bound {
   int32_t slot_of[kGlobalCount];       ///< by predefined variable; -1: not used by the program
   size_t most_operands = 0;            ///< words of the longest call
   bool emits = false;                  ///< a light with illuminate or solar: not an ambient light
+  bool emits_once = false;             ///< one such block, outside loops: its L, Cl and Ol stay where they are
   bool reads_messages = false;         ///< its results depend on other shaders' parameters
 };
 

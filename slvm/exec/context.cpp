@@ -7,7 +7,7 @@
 namespace slvm {
 
 struct ShadingContext::Impl {
-  Impl(const Machine& m, RendererServices& s) : state{m, s, cache} {}
+  Impl(const Machine& m, RendererServices& s) : state{m, s, cache, LightKernels(m.kernels())} {}
 
   enum Role { kDisplacement, kSurface, kAtmosphere, kSingle, kRoles };
 
@@ -61,6 +61,24 @@ void begin_output(Grid& grid, Global out, Global in) {
   }
 }
 
+// A light's results are in memory of its run: brings them to the grid, those of several blocks added up.
+void light_to_grid(ShaderRun& run, Grid& grid) {
+  end_light(run);
+  for (Global g : {Global::kL, Global::kCl, Global::kOl}) {
+    float* out = grid.varying(g);
+    std::fill_n(out, 3 * grid.pitch(), 0.0f);
+    for (size_t i = 0; i < run.emission_count; ++i) {
+      const Emission& e = run.emissions[i];
+      const Planes& from = g == Global::kL ? e.from_light : g == Global::kCl ? e.colour : e.opacity;
+      for (size_t c = 0; c < 3; ++c)
+        mask_for_each(e.lit.data(), grid.points(), [&](size_t point) {
+          float& to = out[c * grid.pitch() + point];
+          to = g == Global::kL ? from.get(c, point) : to + from.get(c, point);
+        });
+    }
+  }
+}
+
 } // namespace
 
 void ShadingContext::displace(const ShaderSet& set, Grid& grid) {
@@ -90,26 +108,8 @@ void ShadingContext::shade(const ShaderSet& set, Grid& grid) {
 void ShadingContext::run(const Instance& instance, Grid& grid) {
   impl_->begin({}, grid);
   impl_->state.displacement = impl_->state.surface = impl_->state.atmosphere = nullptr;
-  const ShaderRun* run = impl_->execute(Impl::kSingle, &instance);
-  if (instance.shader().kind() != ShaderKind::kLight) return;
-  // A light's results are in memory of its run: bring them to the grid, those of several blocks added up.
-  for (Global g : {Global::kL, Global::kCl, Global::kOl}) {
-    float* out = grid.varying(g);
-    std::fill_n(out, 3 * grid.pitch(), 0.0f);
-    Planes own = const_cast<ShaderRun*>(run)->slot(g) ? *const_cast<ShaderRun*>(run)->slot(g) : Planes{};
-    for (size_t e = 0; e < std::max<size_t>(run->emission_count, 1); ++e) {
-      const Emission* emission = run->emission_count > 1 ? &run->emissions[e] : nullptr;
-      const MaskWord* lit = run->emission_count ? run->emissions[e].lit.data() : run->mask.at_level(0);
-      Planes from = !emission ? own : g == Global::kL ? emission->from_light : g == Global::kCl ? emission->colour : emission->opacity;
-      if (!from.data) continue;
-      for (size_t c = 0; c < 3; ++c)
-        mask_for_each(lit, grid.points(), [&](size_t i) {
-          float x = from.get(c, i);
-          float& to = out[c * grid.pitch() + i];
-          to = g == Global::kL ? x : to + x;
-        });
-    }
-  }
+  impl_->execute(Impl::kSingle, &instance);
+  if (instance.shader().kind() == ShaderKind::kLight) light_to_grid(*impl_->runs[Impl::kSingle], grid);
 }
 
 const Planes* ShadingContext::output(const Instance& instance, std::string_view name) const {

@@ -14,6 +14,9 @@ LightCache::~LightCache() = default;
 
 namespace {
 
+// A uniform triple of zeros. Kernels only read it.
+alignas(kPlaneAlign) constexpr float kNothing[3 * kMaxLanes] = {};
+
 size_t operand_floats(const Operand& o, size_t pitch) { return 3 * (o.step ? pitch : 1); }
 
 // Points and normals as plain numbers, to see whether they are the same another time.
@@ -58,16 +61,7 @@ LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance
   if (uses_normal) save(normal, pitch, g.normal);
   g.run->prepare(&position, &normal);
   g.run->execute();
-  // The colour at the end of the shader counts, for lights that finish it after their (only) block.
-  if (g.run->emission_count == 0) {
-    std::vector<MaskWord> lit(mask_words(pitch));
-    mask_set_all(lit.data(), g.run->points);
-    end_emission(*g.run, lit);
-  } else if (g.run->emission_count == 1) {
-    std::vector<MaskWord> lit = g.run->emissions[0].lit;
-    g.run->emission_count = 0;
-    end_emission(*g.run, lit);
-  }
+  end_light(*g.run);
   return g;
 }
 
@@ -110,50 +104,58 @@ bool LightLoop::category_matches(std::string_view wanted, std::span<const std::s
 
 namespace {
 
-// Lanes where the angle between axis and direction is at most `angle`: their cosine is compared, without division.
-void cone_lanes(const Operand& axis, const Operand& direction, const Operand& angle, size_t points, float* inside) {
-  const float *ax = axis.plane(0), *ay = axis.plane(1), *az = axis.plane(2);
-  const float *lx = direction.plane(0), *ly = direction.plane(1), *lz = direction.plane(2);
-  size_t as = axis.step, ls = direction.step;
-  auto test = [&](size_t i, float cosine) {
-    float dot = ax[i * as] * lx[i * ls] + ay[i * as] * ly[i * ls] + az[i * as] * lz[i * ls];
-    float lengths = std::sqrt((ax[i * as] * ax[i * as] + ay[i * as] * ay[i * as] + az[i * as] * az[i * as]) *
-                              (lx[i * ls] * lx[i * ls] + ly[i * ls] * ly[i * ls] + lz[i * ls] * lz[i * ls]));
-    return dot >= cosine * lengths ? 1.0f : 0.0f;
-  };
-  // cos(PI/2) in floats is not 0: a right angle means the half space.
-  auto cosine_of = [](float a) {
-    float c = std::cos(a);
-    return std::fabs(c) < 1e-6f ? 0.0f : c;
-  };
-  if (angle.step == 0) {
-    float cosine = cosine_of(angle.data[0]);
-    for (size_t i = 0; i < points; ++i) inside[i] = test(i, cosine);
-  } else {
-    for (size_t i = 0; i < points; ++i) inside[i] = test(i, cosine_of(angle.data[i]));
-  }
-}
-
-void mask_of_floats(const float* inside, size_t points, std::vector<MaskWord>& mask, size_t pitch) {
-  mask.assign(mask_words(pitch), 0);
-  for (size_t i = 0; i < points; ++i)
-    mask[i / kMaskWordLanes] |= MaskWord{inside[i] != 0} << (i % kMaskWordLanes);
-}
-
 Operand as_operand(const Planes& p) { return {p.data, p.pitch, p.step, 1}; }
 
+void call(Kernel kernel, const Operand& out, std::initializer_list<Operand> in, size_t lanes) {
+  Operand operands[4] = {out};
+  std::copy(in.begin(), in.end(), operands + 1);
+  kernel(operands, static_cast<uint32_t>(1 + in.size()), out.step ? lanes : kMaxLanes, {});
+}
+
+// cos(PI/2) in floats is not 0: a right angle means the half space.
+float cosine_of(float angle) {
+  float c = std::cos(angle);
+  return std::fabs(c) < 1e-6f ? 0.0f : c;
+}
+
+/// Lanes where the angle between axis and direction is at most `angle`.
+void cone_lanes(ShaderRun& run, const Operand& axis, const Operand& direction, const Operand& angle, PlaneMemory& memory,
+                std::vector<MaskWord>& lanes) {
+  size_t pitch = run.pitch;
+  float* inside = memory.reserve(2 * pitch);
+  Operand cosine{inside + pitch, pitch, angle.step, 1};
+  if (angle.step) std::transform(angle.data, angle.data + run.points, cosine.data, cosine_of);
+  else std::fill_n(cosine.data, kMaxLanes, cosine_of(*angle.data));
+  call(run.state.light_kernels.in_cone, {inside, pitch, 1, 1}, {axis, direction, cosine}, pitch);
+  lanes.resize(mask_words(pitch));
+  run.state.machine.kernels().mask_of_bools(lanes.data(), inside, pitch);
+}
+
+void all_points(const ShaderRun& run, std::vector<MaskWord>& lit) {
+  lit.resize(mask_words(run.pitch));
+  mask_set_all(lit.data(), run.points);
+}
+
 } // namespace
+
+LightKernels::LightKernels(const KernelTable& kernels) {
+  auto find = [&](std::string_view name, std::string_view signature) {
+    return kernels[static_cast<ShadeopId>(find_shadeop(name, signature))];
+  };
+  subtract = find("operator-", "vector(point a, point b)");
+  negate = find("operator-", "vector(vector a)");
+  normalize = find("normalize", "vector(vector v)");
+  in_cone = find("incone", "bool(vector axis, vector direction, float cosine)");
+}
 
 bool LightLoop::next(ShaderRun& run, const MaskWord* in_loop) {
   for (; at_ < rounds_.size(); ++at_) {
     auto [lit, emission] = rounds_[at_];
     if (has_cone_) {
-      inside_.resize(run.pitch);
-      cone_lanes(axis_, as_operand(emission->to_light), angle_, run.points, inside_.data());
-      mask_of_floats(inside_.data(), run.points, lanes_, run.pitch);
+      cone_lanes(run, axis_, as_operand(emission->to_light), angle_, inside_, lanes_);
       mask_and(lanes_.data(), lanes_.data(), emission->lit.data(), run.pitch);
     } else {
-      std::copy(emission->lit.begin(), emission->lit.end(), lanes_.begin());
+      lanes_ = emission->lit;
     }
     MaskWord some = 0;
     for (size_t i = 0; i < lanes_.size(); ++i) some |= lanes_[i] & in_loop[i];
@@ -170,60 +172,57 @@ bool LightLoop::next(ShaderRun& run, const MaskWord* in_loop) {
 
 void begin_illuminate(ShaderRun& run, const Operand& from, const Operand* axis, const Operand* angle,
                       std::vector<MaskWord>& lit) {
-  Planes* l = run.slot(Global::kL);
-  Planes ps = *run.slot(Global::kPs);
-  for (size_t c = 0; c < 3; ++c) {
-    float* to = l->data + c * l->pitch;
-    const float *p = ps.data + c * ps.pitch, *f = from.plane(c);
-    for (size_t i = 0; i < run.points; ++i) to[i] = p[i * ps.step] - f[i * from.step];
-  }
-  lit.assign(mask_words(run.pitch), 0);
-  if (!axis) {
-    mask_set_all(lit.data(), run.points);
-    return;
-  }
-  std::vector<float> inside(run.pitch);
-  cone_lanes(*axis, as_operand(*l), *angle, run.points, inside.data());
-  mask_of_floats(inside.data(), run.points, lit, run.pitch);
+  Operand l = as_operand(*run.slot(Global::kL));
+  call(run.state.light_kernels.subtract, l, {as_operand(*run.slot(Global::kPs)), from}, run.pitch);
+  all_points(run, lit);
+  if (!axis) return;
+  std::vector<MaskWord> points = lit;
+  cone_lanes(run, *axis, l, *angle, run.cone_memory, lit);
+  mask_and(lit.data(), lit.data(), points.data(), run.pitch);
 }
 
 // Light along the axis, of length 1; without axis from everywhere: towards the surface, -Ns.
 void begin_solar(ShaderRun& run, const Operand* axis, const Operand*, std::vector<MaskWord>& lit) {
-  Planes* l = run.slot(Global::kL);
-  Operand direction = axis ? *axis : as_operand(*run.slot(Global::kNs));
-  float sign = axis ? 1.0f : -1.0f;
-  for (size_t i = 0; i < run.points; ++i) {
-    float x = direction.plane(0)[i * direction.step], y = direction.plane(1)[i * direction.step],
-          z = direction.plane(2)[i * direction.step];
-    float length = std::sqrt(x * x + y * y + z * z);
-    float scale = length > 0 ? sign / length : 0;
-    l->data[i] = x * scale;
-    l->data[l->pitch + i] = y * scale;
-    l->data[2 * l->pitch + i] = z * scale;
-  }
-  lit.assign(mask_words(run.pitch), 0);
-  mask_set_all(lit.data(), run.points);
+  Operand l = as_operand(*run.slot(Global::kL));
+  call(run.state.light_kernels.normalize, l, {axis ? *axis : as_operand(*run.slot(Global::kNs))}, run.pitch);
+  if (!axis) call(run.state.light_kernels.negate, l, {l}, run.pitch);
+  all_points(run, lit);
 }
 
 void end_emission(ShaderRun& run, const std::vector<MaskWord>& lit) {
   if (run.emission_count == run.emissions.size()) run.emissions.emplace_back();
   Emission& e = run.emissions[run.emission_count++];
-  size_t pitch = run.pitch;
-  float* memory = e.memory.reserve(12 * pitch);
-  e.pitch = pitch;
   e.lit = lit;
-  auto take = [&](size_t plane, Type t, Global g, float sign) {
-    Planes to{memory + plane * pitch, pitch, 1, t, 0};
-    const Planes* from = run.slot(g);
-    for (size_t c = 0; c < 3; ++c)
-      for (size_t i = 0; i < pitch; ++i)
-        to.data[c * pitch + i] = from ? sign * from->data[c * from->pitch + (from->step ? i : 0)] : 0.0f;
-    return to;
+  size_t pitch = run.pitch;
+  bool stays = run.bound.emits_once || !run.bound.emits; // nothing will overwrite the run's own variables
+  float* memory = e.memory.reserve((stays ? 3 : 12) * pitch);
+  auto take = [&](Global g) {
+    const Planes* own = run.slot(g);
+    if (!own) return Planes{const_cast<float*>(kNothing), kMaxLanes, 0, Type::kColor, 0};
+    if (stays) return *own;
+    memory += 3 * pitch;
+    for (size_t c = 0; c < 3; ++c) std::memcpy(memory + c * pitch, own->data + c * own->pitch, pitch * sizeof(float));
+    return Planes{memory, pitch, 1, own->type, 0};
   };
-  e.from_light = take(0, Type::kVector, Global::kL, 1);
-  e.to_light = take(3, Type::kVector, Global::kL, -1);
-  e.colour = take(6, Type::kColor, Global::kCl, 1);
-  e.opacity = take(9, Type::kColor, Global::kOl, 1);
+  e.to_light = {memory, pitch, 1, Type::kVector, 0};
+  e.from_light = take(Global::kL);
+  e.colour = take(Global::kCl);
+  e.opacity = take(Global::kOl);
+  call(run.state.light_kernels.negate, as_operand(e.to_light), {as_operand(e.from_light)}, pitch);
+}
+
+void end_light(ShaderRun& run) {
+  if (run.emission_count > 0) {
+    if (run.emission_count > 1 || run.bound.emits_once) return;
+    // One block ran, of several: its colour is what the shader made of it.
+    std::vector<MaskWord> lit = run.emissions[0].lit;
+    run.emission_count = 0;
+    end_emission(run, lit);
+  } else if (!run.bound.emits) {
+    std::vector<MaskWord> lit;
+    all_points(run, lit);
+    end_emission(run, lit);
+  }
 }
 
 namespace grid_ops {
@@ -235,8 +234,7 @@ void ambient(const GridCall& call) {
   for (size_t c = 0; c < 3; ++c) std::fill_n(out.plane(c), run.pitch, 0.0f);
   const Planes& p = run.state.grid->variable(Global::kP);
   const Planes& n = run.state.grid->variable(Global::kN);
-  static constexpr float kOrigin[3 * kMaxLanes] = {};
-  Operand origin{const_cast<float*>(kOrigin), kMaxLanes, 0, 1};
+  Operand origin{const_cast<float*>(kNothing), kMaxLanes, 0, 1};
   Operand position = p.data ? as_operand(p) : origin, normal = n.data ? as_operand(n) : origin;
   for (const Instance* light : run.state.services.lights(run.shading_state())) {
     if (light->bound().emits) continue;
@@ -244,7 +242,8 @@ void ambient(const GridCall& call) {
     for (size_t c = 0; c < 3; ++c) {
       const float* from = e.colour.data + c * e.colour.pitch;
       float* to = out.plane(c);
-      for (size_t i = 0; i < run.pitch; ++i) to[i] += from[i];
+      if (e.colour.step) for (size_t i = 0; i < run.pitch; ++i) to[i] += from[i];
+      else for (size_t i = 0; i < run.pitch; ++i) to[i] += *from;
     }
   }
 }

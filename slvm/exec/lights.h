@@ -14,13 +14,19 @@ namespace slvm {
 
 class ShaderRun;
 struct GridState;
+struct KernelTable;
 
 /// What one illuminate or solar block gave (or, for an ambient light, the whole shader), at every point.
 struct Emission {
-  PlaneMemory memory;             ///< 12 planes: L, -L, Cl, Ol
-  size_t pitch = 0;
-  std::vector<MaskWord> lit;      ///< points inside the cone
+  PlaneMemory memory;        ///< -L, and where it cannot stay with the run: L, Cl, Ol
+  std::vector<MaskWord> lit; ///< points inside the cone
   Planes to_light, from_light, colour, opacity;
+};
+
+/// The kernels lights are computed with, found once.
+struct LightKernels {
+  explicit LightKernels(const KernelTable& kernels);
+  Kernel subtract, negate, normalize, in_cone;
 };
 
 /// One light's results for one set of points.
@@ -68,7 +74,8 @@ private:
   Operand axis_, angle_;
   bool has_cone_ = false;
   std::vector<MaskWord> lanes_;
-  std::vector<float> inside_;
+  PlaneMemory inside_;
+  float cosine_[kMaxLanes];
 };
 
 /// The lanes of a light cone: sets L of the run (from `from` to Ps) and stores the lanes inside into `lit`.
@@ -77,5 +84,8 @@ void begin_illuminate(ShaderRun& run, const Operand& from, const Operand* axis, 
 void begin_solar(ShaderRun& run, const Operand* axis, const Operand* angle, std::vector<MaskWord>& lit);
 /// Records what the block gave in the lanes that entered it.
 void end_emission(ShaderRun& run, const std::vector<MaskWord>& lit);
+/// At the end of a light: an ambient one's emission is what it set; a lone block's colour is the one at the end, for
+/// lights that finish it after their block.
+void end_light(ShaderRun& run);
 
 } // namespace slvm

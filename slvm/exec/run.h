@@ -15,6 +15,7 @@ struct GridState {
   const Machine& machine;
   RendererServices& services;
   LightCache& lights;
+  LightKernels light_kernels;
   Grid* grid = nullptr;
   const ShaderSet* shaders = nullptr;
   /// Runs of this grid's shaders so far, for message passing. Null: not run (yet).
@@ -56,6 +57,7 @@ public:
   LightLoop light_loop;      ///< the light loop being run (surfaces)
   std::vector<Emission> emissions; ///< what illuminate and solar gave so far (lights): the first emission_count
   size_t emission_count = 0;
+  PlaneMemory cone_memory; ///< scratch of illuminate
 
   Operand operand(const Frame& frame, uint32_t word) const;
   const Frame& grid_frame() const { return frame_; }

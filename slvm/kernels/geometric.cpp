@@ -43,6 +43,10 @@ inline Float dot_vv(Vec3 a, Vec3 b) {
 inline Vec3 cross_vv(Vec3 a, Vec3 b) {
   return cross(a, b);
 }
+// Without division: dot / (|axis| |direction|) >= cosine. A zero direction is inside.
+inline Bool incone_vvf(Vec3 axis, Vec3 direction, Float cosine) {
+  return dot(axis, direction) >= cosine * sqrt(dot(axis, axis) * dot(direction, direction));
+}
 
 // ---- Choice and blending, by component
 inline Vec3 min_vv(Vec3 a, Vec3 b) {
