@@ -3,6 +3,7 @@
 #include "render/tools/arguments.h"
 
 #include "render/state/search_path.h"
+#include "render/tools/places.h"
 
 #include <CLI/CLI.hpp>
 
@@ -50,9 +51,13 @@ std::optional<int> thread_count(const std::string& text) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) + static_cast<int>(n));
 }
 
-std::vector<std::string> directories(const std::string& option, const char* variable) {
+/// The current directory and what comes with Anemone, unless the environment and then the option say
+/// otherwise.
+std::vector<std::string> directories(const std::string& option, const char* variable,
+                                     const std::vector<std::string>& installed) {
   const char* environment = std::getenv(variable);
   std::vector<std::string> standard{"."};
+  standard.insert(standard.end(), installed.begin(), installed.end());
   if (environment) standard = parse_search_path(environment, {}, standard);
   return option.empty() ? standard : parse_search_path(option, {}, standard);
 }
@@ -81,9 +86,9 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("-d,--display", out.display,
                  "where the first Display goes: a file name such as out.png, or a type such as openexr");
   app.add_option("--cwd", out.directory, "change to this directory first");
-  app.add_option(
-      "--shaders", shaders,
-      "directories for shaders, separated by ':'; @ in a scene's path (environment: ANEMONE_SHADERS)");
+  app.add_option("--shaders", shaders,
+                 "directories for shaders, separated by ':' (@: the usual ones); @ in a scene's path "
+                 "(environment: ANEMONE_SHADERS)");
   app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
   app.add_flag(
       "-v,--verbose", [&](auto n) { out.verbosity = 1 + static_cast<int>(n); }, "say what is done");
@@ -115,8 +120,8 @@ Arguments parse_arguments(int argc, char** argv) {
   if (crop.size() == 4) out.crop = {crop[0], crop[1], crop[2], crop[3]};
   if (resolution.size() == 2) out.resolution = {resolution[0], resolution[1]};
   if (out.files.empty()) out.files.emplace_back("-");
-  out.shader_path = directories(shaders, "ANEMONE_SHADERS");
-  out.archive_path = directories(archives, "ANEMONE_ARCHIVES");
+  out.shader_path = directories(shaders, "ANEMONE_SHADERS", standard_shader_folders());
+  out.archive_path = directories(archives, "ANEMONE_ARCHIVES", {});
   return out;
 }
 

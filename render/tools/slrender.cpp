@@ -1,6 +1,7 @@
 // slrender: reads RIB files and renders every world block in them.
 #include "render/renderer.h"
 #include "render/tools/arguments.h"
+#include "render/tools/compiling_loader.h"
 
 #include <fmt/format.h>
 
@@ -102,6 +103,8 @@ int run(const Arguments& arguments) {
   Progress progress(arguments);
   render::RendererSettings settings;
   settings.threads = arguments.threads;
+  settings.shader_loader = render::tools::make_compiling_loader(
+      [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
   settings.flush_messages = [&] { messages.flush(); };
   settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };

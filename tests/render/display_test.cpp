@@ -1,6 +1,6 @@
 // Image files: types, modes, quantisation, names, errors.
 #include "render/display/output.h"
-#include "render_text.h"
+#include "tests/render/render_text.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Whole frames with known answers: areas, depths, watertight surfaces, clipping, crop windows, threads.
-#include "render_text.h"
+#include "tests/render/render_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The graphics state: what requests do to it, and the text of its messages.
-#include "render_text.h"
+#include "tests/render/render_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

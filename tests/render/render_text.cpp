@@ -1,5 +1,5 @@
 // Helpers of the renderer's tests.
-#include "render_text.h"
+#include "tests/render/render_text.h"
 
 #include <cmath>
 

@@ -1,0 +1,15 @@
+// A shader loader that also takes sources: when the search path has NAME.sl and no NAME.slo, or an older one
+// beside it, the source is compiled in memory.
+#pragma once
+
+#include "render/shading/shader_loader.h"
+
+#include <functional>
+#include <string_view>
+
+namespace render::tools {
+
+/// `show` gets the compiler's messages, ready to be printed.
+ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show);
+
+} // namespace render::tools
