@@ -31,6 +31,9 @@ if(ANEMONE_SANITIZE)
     -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(anemone_flags INTERFACE -fsanitize=${ANEMONE_SANITIZE})
 endif()
+if(ANEMONE_FUZZ) # feedback for the fuzzer
+  target_compile_options(anemone_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # sl_library(NAME sources... [PUBLIC libs...] [PRIVATE libs...]): a static library whose headers
 # are included from the repository root ("slvm/machine.h").
