@@ -1,7 +1,7 @@
 // Arithmetic of floats and the mathematical functions (RISpec 3.2, 15.1). One function of wide values each;
-// strip loops and operands are in slvm/wide/lanes.h. Errors in units in the last place (ulp) hold for all
-// arguments unless a comment gives a domain; a function without a comment is exact or rounds once for each
-// operation it shows.
+// strip loops and operands are in slvm/wide/lanes.h. Errors are in units in the last place (ulp) and hold on
+// the whole domain unless a comment says otherwise; a function without a comment is exact or rounds once in
+// each operation it shows.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "slvm/kernels/math.cpp"
 #include <hwy/foreach_target.h>
@@ -34,7 +34,7 @@ inline Float neg_f(Float a) {
   return -a;
 }
 
-// ---- Angles
+// ---- Angles: 1 ulp, the conversions of units 1.5
 inline Float radians_f(Float degrees) {
   return degrees * (std::numbers::pi_v<float> / 180.0f);
 }
@@ -43,56 +43,60 @@ inline Float degrees_f(Float radians) {
 }
 inline Float sin_f(Float a) {
   return sin(a);
-} // 1 ulp
+}
 inline Float cos_f(Float a) {
   return cos(a);
-} // 1 ulp
+}
 inline Float tan_f(Float a) {
   return tan(a);
-} // 1 ulp
+}
 inline Float asin_f(Float a) {
   return asin(clamp(a, -1.0f, 1.0f));
-} // 1 ulp
+}
 inline Float acos_f(Float a) {
   return acos(clamp(a, -1.0f, 1.0f));
-} // 1 ulp
+}
 inline Float atan_f(Float yoverx) {
   return atan(yoverx);
-} // 1 ulp
+}
 inline Float atan_ff(Float y, Float x) {
   return atan2(y, x);
-} // 1 ulp
+}
 
-// ---- Powers
-/// 1 ulp. pow(0, 0) is 1. Where no real number is the answer (x < 0, y not an integer) it is 0.
+// ---- Powers: 1 ulp unless said otherwise
+/// pow(0, 0) is 1. Where no real number is the answer (x < 0, y not an integer) it is 0.
 inline Float pow_ff(Float x, Float y) {
   return zero_if((x < 0.0f) & (y != floor(y)), pow(x, y));
 }
 inline Float exp_f(Float x) {
   return exp(x);
-} // 1 ulp
+}
+/// -inf at 0, NaN below.
 inline Float log_f(Float x) {
   return log(x);
-} // 1 ulp; -inf at 0, NaN below
+}
+/// 3 ulp.
 inline Float log_ff(Float x, Float base) {
   return log(x) / log(base);
-} // 3 ulp
+}
+/// Rounds once. 0 where x is negative.
 inline Float sqrt_f(Float x) {
   return zero_if(x < 0.0f, sqrt(x));
 }
-/// 1.5 ulp. 0 for zero and negative x, so that no infinity spreads.
+/// 1.5 ulp. 0 where x is zero or negative, so that no infinity spreads.
 inline Float inversesqrt_f(Float x) {
   return keep_if(x > 0.0f, 1.0f / sqrt(x));
 }
 inline Float erf_f(Float x) {
   return erf(x);
-} // 1 ulp
+}
+/// 1.5 ulp.
 inline Float erfc_f(Float x) {
   return erfc(x);
-} // 1.5 ulp
+}
 
 // ---- Pieces of numbers
-/// a - b*floor(a/b), the two roundings mended where they leave [0, b) or, for negative b, (b, 0].
+/// a - b*floor(a/b), the two roundings mended where they leave [0, b) or, with a negative b, (b, 0].
 inline Float mod_ff(Float a, Float b) {
   Float r = a - b * floor(a / b);
   Float wrapped = select((r < 0.0f) != (b < 0.0f), r + b, r);

@@ -169,8 +169,7 @@ inline Vec3 transform_mv(const Mat4& m, Vec3 p) {
   auto column = [&](int j)
                     HWY_ATTR { return p.x * m.m[0][j] + p.y * m.m[1][j] + p.z * m.m[2][j] + m.m[3][j]; };
   Vec3 moved{column(0), column(1), column(2)};
-  Float w = column(3);
-  return select(w == 1.0f, moved, moved / w);
+  return moved / column(3);
 }
 inline Vec3 vtransform_mv(const Mat4& m, Vec3 v) {
   auto column = [&](int j) HWY_ATTR { return v.x * m.m[0][j] + v.y * m.m[1][j] + v.z * m.m[2][j]; };

@@ -80,7 +80,7 @@ double deviation(const std::vector<float>& v) {
   return std::sqrt(sum / double(v.size()));
 }
 
-constexpr size_t kMany = 1 << 18;
+constexpr size_t kMany = 1 << 16;
 
 class Noise : public testing::TestWithParam<int> {
 protected:
@@ -89,7 +89,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Dimension, Noise, testing::Values(1, 2, 3, 4));
 
 TEST_P(Noise, HasRangeZeroToOneAndMeanOneHalf) {
-  std::vector<float> v = noise(dimension, random_points(4 * kMany, -1000, 1000));
+  std::vector<float> v = noise(dimension, random_points(8 * kMany, -1000, 1000));
   auto [least, most] = std::minmax_element(v.begin(), v.end());
   EXPECT_GE(*least, 0);
   EXPECT_LE(*most, 1);
@@ -165,7 +165,7 @@ TEST_P(Noise, OfNeighbouringCellsIsUncorrelated) {
   for (float distance : {2.0f, 3.0f, 16.0f, 256.0f, 4096.0f})
     for (int axis = 0; axis < dimension; ++axis) {
       auto far = noise(dimension, mapped(points, [&](Point& p) { p[axis] += distance; }));
-      EXPECT_LT(std::abs(correlation(base, far)), dimension == 1 ? 0.15 : 0.02)
+      EXPECT_LT(std::abs(correlation(base, far)), dimension == 1 ? 0.15 : 0.03)
           << "distance " << distance << " along axis " << axis;
     }
 }
@@ -254,7 +254,7 @@ TEST_P(Noise, CellNoiseIsConstantInCellsAndUniformOverThem) {
   for (size_t i = 0; i < 3; ++i)
     EXPECT_EQ(v[i], evaluate("cellnoise", "color", dimension, points, i));
   EXPECT_EQ(v[0], evaluate("cellnoise", "float", dimension, points));
-  double bound = dimension == 1 ? 0.12 : 0.02; // 2000 cells in one dimension
+  double bound = dimension == 1 ? 0.12 : 0.025; // 2000 cells in one dimension
   for (size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(mean(v[i]), 0.5, bound / 3);
     EXPECT_NEAR(deviation(v[i]), std::sqrt(1 / 12.0), bound / 3);

@@ -18,8 +18,11 @@ struct Expected {
   Expected(double v, double m) : value(v), magnitude(std::max(std::abs(v), m)) {}
 };
 
-/// All components read, in operand order, bools as 0 and 1; all components stored.
-using ReferenceFunction = void (*)(const Signature&, const double* in, Expected* out);
+/// Row: types. In: all components read, in operand order, bools as 0 and 1. Out: all components stored.
+using Row = const Signature&;
+using In = const double*;
+using Out = Expected*;
+using ReferenceFunction = void (*)(Row, In in, Out out);
 
 struct Reference {
   std::string_view name;
