@@ -78,6 +78,7 @@ private:
   ShaderCache& cache_;
   slvm::Diagnostics& diagnostics_;
   std::vector<std::string> may_vary_;
+  std::set<std::string> missing_;
 };
 
 void BoundShaders::Binder::run() {
@@ -113,7 +114,8 @@ std::unique_ptr<slvm::Instance> BoundShaders::Binder::make(const ShaderRequest& 
   if (path.empty()) path = {"."};
   auto shader = cache_.find(request.name, path);
   if (!shader) {
-    error(request.where, request, shader.error());
+    // A missing shader is often named by every object: once is enough.
+    if (missing_.insert(request.name).second) error(request.where, request, shader.error());
     return nullptr;
   }
   slvm::ShaderKind kind = (*shader)->kind(), wanted = wanted_kind(request.kind);

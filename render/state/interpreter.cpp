@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace render {
@@ -139,7 +140,7 @@ void Interpreter::read_archive(const RequestCall& call) {
     return;
   }
   std::vector<std::string> path = options_.search_paths["archive"];
-  path.emplace_back(".");
+  if (std::find(path.begin(), path.end(), ".") == path.end()) path.emplace_back(".");
   auto found = find_file(call.text(0), path);
   auto text = found ? render::read_file(*found) : std::nullopt;
   if (!text) {

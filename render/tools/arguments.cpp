@@ -81,8 +81,12 @@ Arguments parse_arguments(int argc, char** argv) {
                  "form of the progress lines; {:3.0f} is the percentage");
   app.add_option("-t,--threads", threads,
                  "-t:N threads; -t:0 or -t:all for all processors, -t:-N for all but N");
-  app.add_option("--crop", crop, "render part of the frame: xmin xmax ymin ymax, from 0 to 1")->expected(4);
-  app.add_option("--res", resolution, "resolution: width and height in pixels")->expected(2);
+  app.add_option("--crop", crop, "render part of the frame: xmin xmax ymin ymax, from 0 to 1")
+      ->expected(4)
+      ->allow_extra_args(false);
+  app.add_option("--res", resolution, "resolution: width and height in pixels")
+      ->expected(2)
+      ->allow_extra_args(false);
   app.add_option("-d,--display", out.display,
                  "where the first Display goes: a file name such as out.png, or a type such as openexr");
   app.add_option("--cwd", out.directory, "change to this directory first");

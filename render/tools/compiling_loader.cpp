@@ -30,8 +30,9 @@ private:
                                     const std::vector<std::string>& path);
 
   std::function<void(std::string_view)> show_;
-  slc::Compiler compiler_;
-  std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_ = slvm::make_kernel_evaluator();
+  // Made when the first source is met: most runs have compiled shaders only.
+  std::unique_ptr<slc::Compiler> compiler_;
+  std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_;
 };
 
 /// Whether a source stands beside a compiled shader and was changed after it.
@@ -60,6 +61,10 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
                                                    const std::vector<std::string>& path) {
   auto text = read_file(file);
   if (!text) return slvm::Error{fmt::format("cannot read \"{}\"", file)};
+  if (!compiler_) {
+    compiler_ = std::make_unique<slc::Compiler>();
+    evaluator_ = slvm::make_kernel_evaluator();
+  }
   slvm::SourceManager sources;
   slvm::Diagnostics diagnostics;
   slc::CompileOptions options;
@@ -69,7 +74,7 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
       options.preprocess.include_dirs.push_back(std::move(folder));
   options.standard_include = standard_include_folder();
   options.evaluator = evaluator_.get();
-  auto shaders = compiler_.compile(sources.add(file, std::move(*text)), options, sources, diagnostics);
+  auto shaders = compiler_->compile(sources.add(file, std::move(*text)), options, sources, diagnostics);
   std::string messages = format_diagnostics(diagnostics, sources);
   if (!messages.empty()) show_(messages);
   if (diagnostics.has_errors()) return slvm::Error{fmt::format("\"{}\" does not compile", file)};

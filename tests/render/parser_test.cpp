@@ -126,6 +126,9 @@ TEST(Parser, messages_about_parameter_lists) {
             "1:22: Disk: expected a value of \"Cs\" or ']', found the request Sides\n");
   EXPECT_EQ(parse("Disk 0 1 360 5").errors,
             "1:14: Disk: expected a token string or the next request, found the number 5\n");
+  EXPECT_EQ(parse("Display \"a.tif\" \"rgba\" \"compression\" [\"lzw\"]").errors,
+            "1:38: Display: found '[' after \"compression\", which was taken for 'mode'; an argument is "
+            "missing before it\n");
   EXPECT_EQ(parse("WorldBegin 5").errors,
             "1:12: WorldBegin: expected the next request, found the number 5\n");
   EXPECT_EQ(parse("5 Sides 1").errors, "1:1: expected a request, found the number 5\n");
@@ -142,6 +145,29 @@ TEST(Parser, a_real_where_an_integer_is_wanted_is_only_a_warning) {
   Parsed p = parse("Sides 2.0");
   EXPECT_EQ(p.log, "Sides 2i\n");
   EXPECT_EQ(p.errors, "1:7: Sides: 'sides' is an integer, written as a real number\n");
+}
+
+TEST(Parser, damaged_text_is_safe) {
+  const std::string kText =
+      "Display \"a\" \"png\" \"rgba\" \"quantize\" [0 1 0 1]\nWorldBegin LightSource \"x\" 1 \"k\" 2\n"
+      "Sphere [1 -1 1 360] \"varying color Cs\" [1 2 3]\nPatch \"bicubic\" \"P\" [1 2 3]\n"
+      "SubdivisionMesh \"c\" [3] [0 1 2] [\"hole\"] [1 0] [0] [] \"P\" [0] # end\nWorldEnd\n";
+  uint32_t state = 1;
+  auto random = [&](size_t below) { return (state = state * 1664525u + 1013904223u, (state >> 8) % below); };
+  const std::string kBytes = "[]\"\\-.0e#\n\x80\xff\0 ";
+  for (int i = 0; i < 5000; ++i) {
+    std::string text = kText;
+    for (size_t n = random(6) + 1; n > 0; --n) {
+      size_t at = random(text.size());
+      switch (random(3)) {
+      case 0: text[at] = kBytes[random(kBytes.size())]; break;
+      case 1: text.erase(at, random(20)); break;
+      default: text.insert(at, text.substr(random(text.size()), random(30))); break;
+      }
+      if (text.empty()) text.push_back(' ');
+    }
+    parse(text);
+  }
 }
 
 TEST(Parser, compressed_files_are_named_as_such) {

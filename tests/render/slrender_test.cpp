@@ -1,0 +1,141 @@
+// slrender as users run it: options, exit codes, messages.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class SlrenderTest : public ::testing::Test {
+protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / fmt::format("anemone_slrender_{}", ::getpid());
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  void file(const std::string& name, const std::string& text) { std::ofstream(directory_ / name) << text; }
+  bool exists(const std::string& name) const { return fs::exists(directory_ / name); }
+
+  struct Outcome {
+    int status;
+    std::string text; ///< standard output and errors together
+  };
+  /// Runs slrender in the test's directory.
+  Outcome run(const std::string& arguments) {
+    std::string command =
+        fmt::format("cd '{}' && '{}' {} 2>&1", directory_.string(), SLRENDER_PROGRAM, arguments);
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    Outcome out{-1, {}};
+    char buffer[4096];
+    for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+      out.text.append(buffer, n);
+    int status = ::pclose(pipe);
+    out.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return out;
+  }
+
+  fs::path directory_;
+};
+
+const char* kScene = "Display \"a.png\" \"png\" \"rgba\"\nFormat 32 24 1\nWorldBegin\nTranslate 0 0 5\n"
+                     "Sphere 1 -1 1 360\nWorldEnd\n";
+
+TEST_F(SlrenderTest, renders_a_file) {
+  file("a.rib", kScene);
+  Outcome o = run("a.rib");
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.text, "");
+  EXPECT_TRUE(exists("a.png"));
+}
+
+TEST_F(SlrenderTest, reads_standard_input_when_no_file_is_given) {
+  file("a.rib", kScene);
+  EXPECT_EQ(run("< a.rib").status, 0);
+  EXPECT_TRUE(exists("a.png"));
+}
+
+TEST_F(SlrenderTest, several_files_share_their_state) {
+  file("options.rib", "Display \"b.png\" \"png\" \"rgb\"\nFormat 8 8 1\n");
+  file("world.rib", "WorldBegin WorldEnd\n");
+  EXPECT_EQ(run("options.rib world.rib").status, 0);
+  EXPECT_TRUE(exists("b.png"));
+}
+
+TEST_F(SlrenderTest, help_and_version_in_all_spellings) {
+  for (const char* option : {"-help", "--help", "-h"}) {
+    Outcome o = run(option);
+    EXPECT_EQ(o.status, 0) << option;
+    EXPECT_THAT(o.text, HasSubstr("-progress"));
+    EXPECT_THAT(o.text, HasSubstr("Exit status"));
+  }
+  EXPECT_THAT(run("-version").text, HasSubstr("slrender 0.1.0"));
+  EXPECT_EQ(run("--version").status, 0);
+}
+
+TEST_F(SlrenderTest, command_line_beats_the_file) {
+  file("a.rib", kScene);
+  EXPECT_EQ(run("-res 16 12 -crop 0 .5 0 1 -t:2 -d c.tif a.rib").status, 0);
+  EXPECT_TRUE(exists("c.tif"));
+  EXPECT_FALSE(exists("a.png"));
+  EXPECT_EQ(run("-d null -t:all a.rib").status, 0);
+  EXPECT_FALSE(exists("a.png"));
+  file("sub.rib", kScene);
+  EXPECT_EQ(run("-cwd . -t:1 sub.rib").status, 0);
+}
+
+TEST_F(SlrenderTest, progress_for_people_and_farms) {
+  file("a.rib", kScene);
+  EXPECT_THAT(run("-Progress a.rib").text, HasSubstr("R90000 100%\n"));
+  EXPECT_THAT(run("-progress a.rib").text, HasSubstr("\rR90000 100%\n"));
+  EXPECT_THAT(run("-Progress --progressformat 'P={:.0f}' a.rib").text, HasSubstr("P=100\n"));
+}
+
+TEST_F(SlrenderTest, exit_codes) {
+  file("bad.rib", "Sphere\nWorldBegin WorldEnd\n");
+  Outcome bad = run("-d null bad.rib");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(
+      bad.text,
+      HasSubstr("bad.rib:2:1: error: Sphere: expected a number for 'radius', found the request WorldBegin"));
+  EXPECT_EQ(run("-nonsense").status, 2);
+  EXPECT_EQ(run("-t:many bad.rib").status, 2);
+  EXPECT_EQ(run("-crop 1 0 0 1 bad.rib").status, 2);
+  Outcome missing = run("nowhere.rib");
+  EXPECT_EQ(missing.status, 3);
+  EXPECT_THAT(missing.text, HasSubstr("slrender: error: cannot read \"nowhere.rib\""));
+  EXPECT_EQ(run("-cwd nowhere bad.rib").status, 3);
+  file("warn.rib", "Frobnicate 1\n");
+  EXPECT_EQ(run("warn.rib").status, 0);
+  EXPECT_EQ(run("-Werror warn.rib").status, 1);
+  EXPECT_EQ(run("-nowarn warn.rib").text, "");
+}
+
+TEST_F(SlrenderTest, sources_on_the_search_path_are_compiled) {
+  file("glow.sl", "surface glow(float k = 1) { Ci = k; Oi = 1; }\n");
+  file("a.rib",
+       std::string(kScene).insert(std::string(kScene).find("Sphere"), "Surface \"glow\" \"k\" .5\n"));
+  Outcome o = run("a.rib");
+  EXPECT_EQ(o.status, 0) << o.text;
+  file("glow.sl", "surface glow(float k = 1) { Ci = kk; Oi = 1; }\n");
+  o = run("a.rib");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.text, HasSubstr("glow.sl:1:"));
+  EXPECT_THAT(o.text, HasSubstr("error: Surface: \"glow.sl\" does not compile"));
+}
+
+TEST_F(SlrenderTest, standard_shaders_are_found_without_a_search_path) {
+  file("a.rib", std::string(kScene).insert(std::string(kScene).find("Sphere"),
+                                           "LightSource \"ambientlight\" 1 Surface \"plastic\" \"Ks\" .5\n"));
+  Outcome o = run("a.rib");
+  EXPECT_EQ(o.status, 0) << o.text;
+}
+
+} // namespace
