@@ -1,0 +1,30 @@
+// Runs a case: once to check what is expected, then in all the other ways in which the results must be the
+// same.
+#pragma once
+
+#include "slvm/tools/sltest/expect.h"
+
+#include <string>
+#include <vector>
+
+namespace slvm::sltest {
+
+struct RunnerOptions {
+  bool quick = false; ///< one configuration only
+  RunConfig config;   ///< the one that expectations are checked in
+};
+
+struct CaseReport {
+  const Case* test = nullptr;
+  std::vector<CheckFailure> failures;
+  size_t runs = 0;
+  double seconds = 0;
+
+  bool passed() const { return failures.empty(); }
+};
+
+/// Strip widths 16, 48, 128 and the whole grid, with and without specialisation, must give the same bits; -O0
+/// and -O2 numbers that differ by at most 1e-6; other instruction sets must meet the expectations too.
+CaseReport run_case(const Case& c, ShaderLibrary& library, const RunnerOptions& options);
+
+} // namespace slvm::sltest

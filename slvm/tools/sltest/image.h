@@ -1,0 +1,22 @@
+// Writing the values of a variable over a grid to a file. Row iv = 0 of the grid is the top row of the image.
+//
+// .pfm needs no library: floats, one or three channels. .csv and .txt hold a line for each point: iu, iv and
+// the numbers, with nine digits, so that every float can be read back. All other formats go through
+// OpenImageIO when this build has it (.png, .tif: values are clamped to [0, 1] and stored linearly, as 8 and
+// 16 bits; .exr: as floats).
+#pragma once
+
+#include "slvm/support/result.h"
+#include "slvm/tools/sltest/grid_data.h"
+
+#include <string>
+
+namespace slvm::sltest {
+
+Result<bool> write_variable(const std::string& path, const Variable& variable, int nu, int nv);
+
+/// image_oiio.cpp, or image_none.cpp in a build without the library. `pixels`: row by row, interleaved.
+Result<bool> write_image(const std::string& path, const std::vector<float>& pixels, int nu, int nv,
+                         int channels);
+
+} // namespace slvm::sltest

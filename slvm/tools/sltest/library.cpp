@@ -1,0 +1,102 @@
+#include "slvm/tools/sltest/library.h"
+
+#include "slc/compiler.h"
+#include "slvm/evaluator.h"
+#include "slvm/format/slo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace slvm::sltest {
+
+namespace fs = std::filesystem;
+
+/// The compiler and the kernels it folds constants with.
+struct ShaderLibrary::Tools {
+  slc::Compiler compiler;
+  std::unique_ptr<ir::ConstantEvaluator> evaluator = make_kernel_evaluator();
+};
+
+ShaderLibrary::ShaderLibrary(std::string standard_include)
+    : standard_include_(std::move(standard_include)), tools_(std::make_unique<Tools>()) {}
+ShaderLibrary::~ShaderLibrary() = default;
+
+ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& source, int opt_level,
+                                 std::span<const std::string> path, ShaderError& error) {
+  ShaderPtr& shader = shaders_[fmt::format("{}\n{}\n{}", opt_level, name, source)];
+  if (shader) return shader;
+
+  SourceManager sources;
+  Diagnostics diags;
+  const FileId main = sources.add(name, source);
+  for (const auto& [file, text] : texts_)
+    sources.add(file, text);
+  slc::CompileOptions options;
+  options.optimise = opt_level;
+  options.standard_include = standard_include_;
+  options.evaluator = tools_->evaluator.get();
+  options.preprocess.include_dirs.assign(path.begin(), path.end());
+  std::vector<slc::CompiledShader> compiled = tools_->compiler.compile(main, options, sources, diags);
+  std::string messages = format_diagnostics(diags, sources);
+  if (diags.has_errors() || compiled.empty()) {
+    error = {false,
+             diags.has_errors() ? messages : fmt::format("{}: there is no shader in this file\n", name)};
+    return nullptr;
+  }
+  const std::string stem = fs::path(name).stem().string();
+  auto same = std::find_if(compiled.begin(), compiled.end(),
+                           [&](const slc::CompiledShader& s) { return s.program.name == stem; });
+  Program& program = (same == compiled.end() ? compiled.front() : *same).program;
+  std::vector<std::byte> slo = write_slo(program);
+  shader =
+      std::make_shared<const CompiledShader>(CompiledShader{std::move(slo), std::move(program), messages});
+  return shader;
+}
+
+ShaderPtr ShaderLibrary::load(const std::string& file, ShaderError& error) {
+  auto bytes = read_file(file);
+  if (!bytes) {
+    error = {true, bytes.error()};
+    return nullptr;
+  }
+  auto program = read_slo(*bytes);
+  if (!program) {
+    error = {false, fmt::format("{}: {}", file, program.error())};
+    return nullptr;
+  }
+  return std::make_shared<const CompiledShader>(CompiledShader{std::move(*bytes), std::move(*program), ""});
+}
+
+ShaderPtr ShaderLibrary::find(const std::string& name, int opt_level, std::span<const std::string> path,
+                              ShaderError& error) {
+  const std::string file = find_shader_file(name, path);
+  if (file.empty()) {
+    error = {true, fmt::format("no shader '{}' in {}", name, fmt::join(path, ":"))};
+    return nullptr;
+  }
+  if (!file.ends_with(".sl")) return load(file, error);
+  auto bytes = read_file(file);
+  if (!bytes) {
+    error = {true, bytes.error()};
+    return nullptr;
+  }
+  std::string source(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  return compile(file, source, opt_level, path, error);
+}
+
+std::string find_shader_file(const std::string& name, std::span<const std::string> path) {
+  std::vector<std::string> names = {name};
+  if (!name.ends_with(".sl") && !name.ends_with(".slo")) names = {name + ".slo", name + ".sl", name};
+  std::vector<fs::path> folders(path.begin(), path.end());
+  if (fs::path(name).is_absolute()) folders = {""};
+  std::error_code error;
+  for (const fs::path& folder : folders)
+    for (const std::string& candidate : names)
+      if (fs::path file = (folder / candidate).lexically_normal(); fs::is_regular_file(file, error))
+        return file.string();
+  return "";
+}
+
+} // namespace slvm::sltest

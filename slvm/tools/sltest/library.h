@@ -1,0 +1,64 @@
+// Shaders by name: finds .slo and .sl files, compiles sources in memory through slc, and remembers what it
+// made. The only part of sltest that knows the compiler.
+#pragma once
+
+#include "slvm/format/program.h"
+#include "slvm/support/result.h"
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slvm::sltest {
+
+/// A compiled shader: as a file, to be loaded by any Machine, and as data.
+struct CompiledShader {
+  std::vector<std::byte> slo;
+  Program program;
+  std::string warnings; ///< what the compiler said, as text for a terminal
+};
+using ShaderPtr = std::shared_ptr<const CompiledShader>;
+
+/// Why there is no shader: the file is missing, or it is wrong.
+struct ShaderError {
+  bool missing = false;
+  std::string text;
+};
+
+class ShaderLibrary {
+public:
+  /// `standard_include`: the folder of the headers that come with Anemone, "" for none.
+  explicit ShaderLibrary(std::string standard_include);
+  ~ShaderLibrary();
+
+  /// Makes the text of a file known, so that messages about code that stands in it can show its lines.
+  void add_source(const std::string& name, const std::string& text) { texts_[name] = text; }
+
+  /// Compiles the first shader of `source`. `name` stands for the source in messages.
+  ShaderPtr compile(const std::string& name, const std::string& source, int opt_level,
+                    std::span<const std::string> path, ShaderError& error);
+
+  /// The shader `name`: a path with .sl or .slo, or a bare name that is searched for, NAME.slo before
+  /// NAME.sl, in the folders of `path`. Of a source with several shaders the one named like the file is
+  /// taken, or else the first.
+  ShaderPtr find(const std::string& name, int opt_level, std::span<const std::string> path,
+                 ShaderError& error);
+
+private:
+  ShaderPtr load(const std::string& file, ShaderError& error);
+
+  struct Tools;
+  std::string standard_include_;
+  std::unique_ptr<Tools> tools_;
+  std::map<std::string, std::string> texts_;
+  std::map<std::string, ShaderPtr> shaders_; ///< by level, name and source
+};
+
+/// The file `name` stands for, or "".
+std::string find_shader_file(const std::string& name, std::span<const std::string> path);
+
+} // namespace slvm::sltest

@@ -1,0 +1,120 @@
+// sltest: runs shaders on sample grids, and test files that say what they should compute. The one place that
+// prints and decides the exit status. Read options.cpp for the command line, then one_off.cpp or
+// case_runner.cpp.
+#include "slvm/format/slo.h"
+#include "slvm/tools/sltest/one_off.h"
+#include "slvm/tools/sltest/options.h"
+#include "slvm/tools/sltest/report.h"
+#include "slvm/tools/sltest/test_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <regex>
+
+namespace slvm::sltest {
+namespace {
+
+void print(std::FILE* stream, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+/// The folder of this program; shaders and headers lie beside it, installed or freshly built.
+std::filesystem::path program_folder() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+std::vector<std::string> standard_folders() {
+  const std::filesystem::path root = program_folder().parent_path();
+  return {(root / "share/anemone/shaders").string(), (root / "shaders").string()};
+}
+
+std::string standard_include() {
+  std::error_code error;
+  for (const char* place : {"../share/anemone/include", "../stdlib/include", "../../../stdlib/include"})
+    if (std::filesystem::path folder = program_folder() / place; std::filesystem::is_directory(folder, error))
+      return folder.lexically_normal().string();
+  return "";
+}
+
+/// Reads a test file and runs its cases. False: it could not be read.
+bool run_file(const std::string& name, const std::string& text, const Options& options,
+              ShaderLibrary& library, std::deque<FileReport>& reports) {
+  SourceManager sources;
+  Diagnostics diags;
+  FileReport& report = reports.emplace_back();
+  report.file = read_test_file(name, text, options.path, sources, diags);
+  print(stderr, format_diagnostics(diags, sources));
+  if (diags.has_errors()) return false;
+  library.add_source(name, text);
+  const std::regex filter(options.filter);
+  for (const Case& c : report.file.cases) {
+    if (!options.filter.empty() && !std::regex_search(c.name, filter)) continue;
+    if (options.list)
+      print(stdout, fmt::format("{}: {}\n", to_string(c.where), c.name));
+    else
+      report.cases.push_back(run_case(c, library, {options.quick, options.config}));
+  }
+  print(stdout, report_text(report, options.verbose));
+  return true;
+}
+
+int run_tests(const Options& options, ShaderLibrary& library) {
+  int status = kOk;
+  std::deque<FileReport> reports;
+  for (const std::string& name : options.inputs) {
+    auto bytes = read_file(name);
+    if (!bytes) {
+      print(stderr, fmt::format("sltest: {}\n", bytes.error()));
+      status = kMissing;
+      continue;
+    }
+    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (!run_file(name, text, options, library, reports)) status = std::max<int>(status, kFailed);
+  }
+  if (options.list) return status;
+  print(stdout, summary_text(reports));
+  if (!options.junit.empty()) {
+    const std::string text = junit_text(reports);
+    auto written = write_file(options.junit, std::as_bytes(std::span(text.data(), text.size())));
+    if (!written) {
+      print(stderr, fmt::format("sltest: {}\n", written.error()));
+      status = std::max<int>(status, kMissing);
+    }
+  }
+  return all_passed(reports) ? status : std::max<int>(status, kFailed);
+}
+
+int run(int argc, const char* const* argv) {
+  Options options;
+  ParseOutcome parsed = parse_options(argc, argv, options);
+  print(stdout, parsed.out);
+  print(stderr, parsed.err);
+  if (parsed.done) return parsed.status;
+  for (std::string& folder : standard_folders())
+    options.path.push_back(std::move(folder));
+  ShaderLibrary library(standard_include());
+  if (!options.inputs.empty() && options.inputs[0].ends_with(".toml")) return run_tests(options, library);
+  Outcome outcome = run_one_off(options, library);
+  print(stdout, outcome.out);
+  print(stderr, outcome.err);
+  return outcome.status;
+}
+
+} // namespace
+} // namespace slvm::sltest
+
+int main(int argc, char** argv) {
+  try {
+    return slvm::sltest::run(argc, argv);
+  } catch (const std::regex_error& e) {
+    slvm::sltest::print(stderr, fmt::format("sltest: --filter: {}\n", e.what()));
+    return slvm::sltest::kUsage;
+  } catch (const std::exception& e) {
+    slvm::sltest::print(stderr, fmt::format("sltest: internal error: {}\n", e.what()));
+    return slvm::sltest::kInternal;
+  }
+}

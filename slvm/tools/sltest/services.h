@@ -1,0 +1,45 @@
+// A renderer in memory: what sltest answers when a running shader asks for spaces, lights, attributes and
+// options.
+//
+// "world" and "camera" are "current" unless the test says otherwise. The camera is orthographic: "screen" has
+// x and y of the camera and z from 0 at the near to 1 at the far clipping plane; "NDC" maps the screen window
+// [-1, 1] to [0, 1], y downwards; "raster" is NDC times the resolution of the grid. The clipping planes are
+// those of the option Clipping, 0 and 1 by default.
+#pragma once
+
+#include "slvm/machine.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace slvm::sltest {
+
+/// What all runs of a case see of the world.
+struct Scene {
+  std::map<std::string, Matrix4, std::less<>> spaces; ///< to "current"
+  std::map<std::string, Value, std::less<>> attributes, options;
+};
+
+class MemoryServices final : public RendererServices {
+public:
+  MemoryServices(const Scene& scene, std::vector<const Instance*> lights)
+      : scene_(scene), lights_(std::move(lights)) {}
+
+  bool space_to_current(const ShadingState&, std::string_view space, Matrix4& m) override;
+  bool current_to_space(const ShadingState&, std::string_view space, Matrix4& m) override;
+  std::span<const Instance* const> lights(const ShadingState&) override { return lights_; }
+  bool attribute(const ShadingState&, std::string_view name, Value& out) override;
+  bool option(const ShadingState&, std::string_view name, Value& out) override;
+  bool renderer_info(const ShadingState&, std::string_view name, Value& out) override;
+  void print(const ShadingState&, std::string_view text) override { printed_ += text; }
+
+  const std::string& printed() const { return printed_; }
+
+private:
+  const Scene& scene_;
+  std::vector<const Instance*> lights_;
+  std::string printed_;
+};
+
+} // namespace slvm::sltest
