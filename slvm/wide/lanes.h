@@ -87,7 +87,7 @@ inline constexpr bool kIsOutput =
 template <class Function> struct Shape;
 template <class R, class... A> struct Shape<R(A...)> {
   static constexpr bool kHasResult = !std::is_void_v<R>;
-  static constexpr bool kOutput[] = {kIsOutput<A>..., false};
+  static constexpr bool kOutput[sizeof...(A) + 1] = {kIsOutput<A>..., false};
   static constexpr size_t kStored = kHasResult + (size_t{kIsOutput<A>} + ... + 0);
   static constexpr size_t kOperands = kHasResult + sizeof...(A);
 
