@@ -42,7 +42,7 @@ def compile_alone(header, flags):
 def main():
     flags = flags_by_folder(sys.argv[1])
     jobs = int(sys.argv[2]) if len(sys.argv) > 2 else os.cpu_count()
-    headers = [h for h in tree.files(".h") if "HWY_TARGET_TOGGLE" not in tree.read(h)]
+    headers = [h for h in tree.cpp_files(".h") if "HWY_TARGET_TOGGLE" not in tree.read(h)]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         results = list(pool.map(lambda h: compile_alone(h, flags), headers))
     tree.finish([r for r in results if r])

@@ -10,7 +10,6 @@ MAX_FILE, MAX_FUNCTION, MAX_CMAKE = 800, 80, 60
 LONG_FUNCTIONS = {
     ("slvm/exec/interpreter.cpp", None): "the dispatch loop",
 }
-CODE = (".h", ".cpp", ".inc")
 LIBRARIES = ("slc/", "slvm/", "render/")
 NOT_IN_LIBRARIES = r"std::(?:cout|cerr|clog)\b|(?<![\w:.>])(?:std::)?(?:printf|puts|putchar|exit|abort|terminate|_exit)\s*\("
 LEFTOVERS = r"\b(?:TODO|FIXME|XXX|HACK|TBD)\b"
@@ -68,11 +67,12 @@ def check_code(path, text, problems):
 
 def main():
     problems = []
+    code = set(tree.cpp_files())
     for path in tree.files():
         if path.endswith((".png", ".exr", ".tif", ".slo", ".pyc")) or "/corpus/" in path:
             continue
         text = tree.read(path)
-        if path.endswith(CODE):
+        if path in code:
             check_code(path, text, problems)
         if path.endswith("CMakeLists.txt") and text.count("\n") > MAX_CMAKE:
             problems.append(f"{path} has {text.count(chr(10))} lines, more than {MAX_CMAKE}: helpers live in cmake/")

@@ -16,6 +16,14 @@ def files(*endings):
     return sorted(found)
 
 
+RSL_FOLDERS = ("tests/diagnostics/", "tests/language/", "tests/shadeops/", "stdlib/include/", "shaders/")
+
+
+def cpp_files(*endings):
+    """Those of our own C++; .h files in RSL_FOLDERS are shader source."""
+    return [f for f in files(*(endings or (".h", ".cpp", ".inc"))) if f.endswith(".cpp") or not f.startswith(RSL_FOLDERS)]
+
+
 def read(path):
     with open(os.path.join(ROOT, path), encoding="utf-8", errors="replace") as f:
         return f.read()
