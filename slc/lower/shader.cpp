@@ -117,6 +117,10 @@ slvm::ir::ValueId Lowering::read(const Variable& v) {
 }
 
 void Lowering::write(const Variable& v, ValueId value) {
+  if (v.kind == VariableKind::kGlobal && !global_index_[static_cast<size_t>(v.global)]) {
+    b_.store(global_slot(v.global), value); // L of lights, which illuminate and solar set too: it stays memory
+    return;
+  }
   size_t i = index_of(v);
   values_.resize(variable_types_.size(), ir::kNoValue);
   values_[i] = value;
@@ -181,7 +185,7 @@ void Lowering::begin_variables() {
   values_[random_counter_] = b_.number(random_start(shader_.name));
   for (int g = 0; g < slvm::kGlobalCount; ++g) {
     const slvm::GlobalInfo& info = slvm::global_info(static_cast<Global>(g));
-    if (info.access[static_cast<size_t>(shader_.kind)] != 'w') continue;
+    if (info.access[static_cast<size_t>(shader_.kind)] != 'w' || g == static_cast<int>(Global::kL)) continue;
     global_index_[g] = new_index(info.type);
     begin(global_index_[g], global_slot(static_cast<Global>(g)));
   }

@@ -29,6 +29,15 @@ private:
                                                            : nullptr;
   }
 
+  // Of a bool: -1 unknown, else 0 or 1.
+  int truth(ValueId v) const {
+    const Constant* c = constant(v);
+    uint32_t bits = 0;
+    if (!c) return -1;
+    std::memcpy(&bits, c->numbers.data(), sizeof bits);
+    return bits ? 1 : 0;
+  }
+
   bool is_number(ValueId v, float x) const {
     const Constant* c = constant(v);
     return c && c->type != Type::kString && c->type != Type::kBool &&
@@ -76,13 +85,6 @@ private:
   // A relation with a constant side, or a selection by a constant.
   bool fold_logic(InstId id, std::string_view name) {
     const Inst& inst = m_.insts[id];
-    auto truth = [&](ValueId v) { // -1 unknown, else 0 or 1
-      const Constant* c = constant(v);
-      uint32_t bits = 0;
-      if (!c) return -1;
-      std::memcpy(&bits, c->numbers.data(), sizeof bits);
-      return bits ? 1 : 0;
-    };
     if (name == "operator?:" && truth(inst.args[0]) >= 0) {
       become_value(id, inst.args[truth(inst.args[0]) ? 1 : 2]);
       return true;
@@ -115,15 +117,13 @@ private:
 
   // Puts the body of the branch taken in place of the if; its yield's arguments replace the if's results.
   void fold_if(InstId id, std::vector<InstId>& out) {
-    const Constant* c = constant(m_.insts[id].args[0]);
+    int condition = truth(m_.insts[id].args[0]);
     for (Region& r : m_.insts[id].regions) fold_region(r);
-    if (!c) {
+    if (condition < 0) {
       out.push_back(id);
       return;
     }
-    uint32_t bits = 0;
-    std::memcpy(&bits, c->numbers.data(), sizeof bits);
-    std::vector<InstId> taken = m_.insts[id].regions[bits ? 0 : 1].body;
+    std::vector<InstId> taken = m_.insts[id].regions[condition ? 0 : 1].body;
     changed_ = true;
     for (InstId nested : taken) {
       if (m_.insts[nested].op != Op::kYield) {
