@@ -28,21 +28,24 @@ private:
         block = blocks++;
         strip_begin_ = i;
       }
-      for (const LowOperand& o : code_.insts[i].operands) {
-        if (o.kind != LowOperand::Kind::kReg) continue;
-        LowReg& r = code_.regs[o.value];
-        if (r.first == ~0u) {
-          r.first = i;
-          r.block = block >= 0 ? block : -2;
-        }
-        r.last = i;
-        if (block < 0 || r.block != block) r.block = -2;
-      }
+      for (uint32_t reg : code_.insts[i].begins) refer(reg, i, block);
+      for (const LowOperand& o : code_.insts[i].operands)
+        if (o.kind == LowOperand::Kind::kReg) refer(o.value, i, block);
       if (op == Opcode::k_endstrip) {
         strips_.emplace_back(strip_begin_, i);
         block = -1;
       }
     }
+  }
+
+  void refer(uint32_t reg, uint32_t inst, int32_t block) {
+    LowReg& r = code_.regs[reg];
+    if (r.first == ~0u) {
+      r.first = inst;
+      r.block = block >= 0 ? block : -2;
+    }
+    r.last = inst;
+    if (block < 0 || r.block != block) r.block = -2;
   }
 
   // What is defined before a loop and read in it must last to its end. A strip block is a loop over strips for the

@@ -24,6 +24,9 @@ struct LowInst {
   uint32_t first_store = 0;
   std::vector<LowOperand> operands;
   SourceRange where;
+  /// Registers that are live from here on though nothing is stored yet: results of a block, which lanes store to in
+  /// different rounds of loops inside it.
+  std::vector<uint32_t> begins;
   bool removed = false; ///< a copy that allocation made superfluous
 };
 

@@ -118,7 +118,7 @@ private:
   // ---- Instructions. Those of a strip block wait in pending_ until something ends the block.
 
   LowInst make(uint16_t opcode, std::vector<LowOperand> operands, uint32_t first_store = 0, uint32_t stores = 0) const {
-    return {opcode, stores, first_store, std::move(operands), where_, false};
+    return {opcode, stores, first_store, std::move(operands), where_, {}, false};
   }
   uint32_t add(LowInst inst) {
     out_.insts.push_back(std::move(inst));
@@ -490,6 +490,8 @@ private:
     frames_.push_back({&inst, begin_carried(inst)});
     bool is_block = inst.op == Op::kBlock;
     uint32_t begin = add(is_block ? Opcode::k_block : Opcode::k_loop, {target(0)});
+    if (is_block)
+      for (const LowOperand& r : frames_.back().merge) out_.insts[begin].begins.push_back(r.value);
     open_mask();
     for (ValueId p : inst.regions[0].params) level_[p] = depth();
     ends_.push_back({});
