@@ -9,14 +9,9 @@
 
 namespace slvm {
 
-Operand ShaderRun::operand(const Frame& f, uint32_t word) const {
+Operand ShaderRun::external_operand(const Frame& f, uint32_t word) const {
   uint32_t index = operand_index(word);
-  Space space = operand_space(word);
-  if (space < Space::kSlot) {
-    auto s = static_cast<size_t>(space);
-    return {f.data[s] + index * f.pitch[s], f.pitch[s], f.step[s], 1};
-  }
-  if (space == Space::kSlot) {
+  if (operand_space(word) == Space::kSlot) {
     const Planes& p = slots[index];
     return {p.data + (p.step ? f.first : 0), p.pitch, p.step, std::max(p.elements, 1u)};
   }

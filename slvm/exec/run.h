@@ -59,7 +59,13 @@ public:
   size_t emission_count = 0;
   PlaneMemory cone_memory; ///< scratch of illuminate
 
-  Operand operand(const Frame& frame, uint32_t word) const;
+  Operand operand(const Frame& f, uint32_t word) const {
+    auto space = static_cast<size_t>(operand_space(word));
+    if (space >= static_cast<size_t>(Space::kSlot)) return external_operand(f, word);
+    return {f.data[space] + operand_index(word) * f.pitch[space], f.pitch[space], f.step[space], 1};
+  }
+  /// A variable or an array.
+  Operand external_operand(const Frame& frame, uint32_t word) const;
   const Frame& grid_frame() const { return frame_; }
   Planes* slot(Global g) {
     int32_t i = bound.slot_of[static_cast<size_t>(g)];
