@@ -1,5 +1,5 @@
-// Constant folding with the virtual machine's own kernels. PUBLIC. Tools hand it to slc, binding uses it itself, so
-// that a folded call and an executed one agree to the last bit.
+// Constant folding with the virtual machine's own kernels. PUBLIC. Tools hand it to slc, binding uses it
+// itself, so that a folded call and an executed one agree to the last bit.
 #pragma once
 
 #include "slvm/ir/passes/passes.h"

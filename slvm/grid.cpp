@@ -14,14 +14,19 @@ namespace {
 constexpr size_t kFloatsPerLine = kPlaneAlign / sizeof(float);
 constexpr size_t kBlockFloats = size_t{1} << 14;
 
-size_t padded(size_t points) { return (points + kMaxLanes - 1) / kMaxLanes * kMaxLanes; }
+size_t padded(size_t points) {
+  return (points + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
+}
 
 void fill_uniform(float* planes, std::span<const float> value) {
-  for (size_t i = 0; i < value.size(); ++i) std::fill_n(planes + i * kMaxLanes, kMaxLanes, value[i]);
+  for (size_t i = 0; i < value.size(); ++i)
+    std::fill_n(planes + i * kMaxLanes, kMaxLanes, value[i]);
 }
 } // namespace
 
-Grid::Grid(int nu, int nv) : nu_(nu), nv_(nv), pitch_(padded(points())) { assert(nu > 0 && nv > 0); }
+Grid::Grid(int nu, int nv) : nu_(nu), nv_(nv), pitch_(padded(points())) {
+  assert(nu > 0 && nv > 0);
+}
 
 float* Grid::allocate(size_t planes, size_t pitch) {
   size_t need = planes * pitch;
@@ -44,7 +49,8 @@ float* Grid::varying(Global g) {
   Type type = global_info(g).type;
   auto count = static_cast<size_t>(components(type));
   float* data = allocate(count, pitch_);
-  for (size_t i = 0; i < count; ++i) std::fill_n(data + i * pitch_, pitch_, p.data ? p.data[i * p.pitch] : 0.0f);
+  for (size_t i = 0; i < count; ++i)
+    std::fill_n(data + i * pitch_, pitch_, p.data ? p.data[i * p.pitch] : 0.0f);
   p = {data, pitch_, 1, type, 0};
   return data;
 }
@@ -67,7 +73,8 @@ float* Grid::add_varying_primvar(const std::string& name, Type type, uint32_t el
 
 void Grid::add_uniform_primvar(const std::string& name, const Value& value, StringPool& strings) {
   std::vector<float> numbers = value.numbers;
-  for (const std::string& s : value.strings) numbers.push_back(std::bit_cast<float>(strings.intern(s)));
+  for (const std::string& s : value.strings)
+    numbers.push_back(std::bit_cast<float>(strings.intern(s)));
   Planes p{allocate(numbers.size(), kMaxLanes), kMaxLanes, 0, value.type, value.elements};
   fill_uniform(p.data, numbers);
   primvars_.emplace_back(name, p);
@@ -84,9 +91,11 @@ void Grid::reset(int nu, int nv) {
   nu_ = nu;
   nv_ = nv;
   pitch_ = padded(points());
-  for (Planes& p : globals_) p = {};
+  for (Planes& p : globals_)
+    p = {};
   primvars_.clear();
-  for (Block& b : blocks_) b.used = 0;
+  for (Block& b : blocks_)
+    b.used = 0;
 }
 
 } // namespace slvm

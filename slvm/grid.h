@@ -1,9 +1,9 @@
 // A shading grid: nu x nv points and, for each, the predefined variables and primitive variables. PUBLIC.
 //
-// Points are numbered row by row, u fastest: point (iu, iv) is iv * nu + iu. A variable is either uniform (one value)
-// or varying (structure of arrays: one plane of floats a component, pitch() floats apart, point i at index i).
-// Planes are 64-byte aligned and padded to pitch(); the padding may hold anything. All geometric values are in
-// "current" space. A grid of one row or column, or with `derivatives` off, has derivatives 0.
+// Points are numbered row by row, u fastest: point (iu, iv) is iv * nu + iu. A variable is either uniform
+// (one value) or varying (structure of arrays: one plane of floats a component, pitch() floats apart, point i
+// at index i). Planes are 64-byte aligned and padded to pitch(); the padding may hold anything. All geometric
+// values are in "current" space. A grid of one row or column, or with `derivatives` off, has derivatives 0.
 #pragma once
 
 #include "slvm/format/shadeop_info.h"
@@ -40,7 +40,8 @@ public:
 
   /// Makes `g` varying, if it is not, and returns its first plane to be filled or read.
   float* varying(Global g);
-  /// Makes `g` uniform with this value (components() floats). Uniform values of varying variables cost nothing.
+  /// Makes `g` uniform with this value (components() floats). Uniform values of varying variables cost
+  /// nothing.
   void set_uniform(Global g, std::span<const float> value);
   const Planes& variable(Global g) const { return globals_[static_cast<size_t>(g)]; }
 
@@ -54,8 +55,8 @@ public:
   void reset(int nu, int nv);
 
   bool derivatives = true;
-  /// calculatenormal's Du(P) ^ Dv(P) is turned round: set when the orientation or a mirroring transformation of the
-  /// primitive makes the outside the other side.
+  /// calculatenormal's Du(P) ^ Dv(P) is turned round: set when the orientation or a mirroring transformation
+  /// of the primitive makes the outside the other side.
   bool flip_normals = false;
   /// "object" to "current".
   Matrix4 object_to_current;

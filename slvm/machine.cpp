@@ -19,7 +19,8 @@ Instance::Instance() = default;
 Instance::~Instance() = default;
 
 Machine::Machine(MachineOptions options) : options_(std::move(options)) {
-  options_.strip_points = std::max<uint32_t>((options_.strip_points + kMaxLanes - 1) / kMaxLanes * kMaxLanes, kMaxLanes);
+  options_.strip_points =
+      std::max<uint32_t>((options_.strip_points + kMaxLanes - 1) / kMaxLanes * kMaxLanes, kMaxLanes);
   kernels_ = options_.target.empty() ? nullptr : find_kernel_table(options_.target);
   if (!kernels_) kernels_ = &kernel_table();
   evaluator_ = make_kernel_evaluator(options_.target);
@@ -40,23 +41,27 @@ Result<std::shared_ptr<const Shader>> Machine::load_file(const std::string& path
   Result<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return Error{bytes.error()};
   auto shader = load(*bytes);
-  return shader ? shader : Result<std::shared_ptr<const Shader>>(Error{fmt::format("{}: {}", path, shader.error())});
+  return shader ? shader
+                : Result<std::shared_ptr<const Shader>>(Error{fmt::format("{}: {}", path, shader.error())});
 }
 
 namespace {
 
 // One plane of kMaxLanes equal floats for each number.
 void splat(float* planes, std::span<const float> numbers) {
-  for (size_t i = 0; i < numbers.size(); ++i) std::fill_n(planes + i * kMaxLanes, kMaxLanes, numbers[i]);
+  for (size_t i = 0; i < numbers.size(); ++i)
+    std::fill_n(planes + i * kMaxLanes, kMaxLanes, numbers[i]);
 }
 
 void bind_constants(Instance::Bound& bound, const Program& program, StringPool& strings) {
   std::vector<float> numbers = program.constants;
-  for (auto [plane, text] : program.string_constants) numbers[plane] = std::bit_cast<float>(strings.intern(program.strings[text]));
+  for (auto [plane, text] : program.string_constants)
+    numbers[plane] = std::bit_cast<float>(strings.intern(program.strings[text]));
   splat(bound.constants.reserve(std::max<size_t>(numbers.size(), 1) * kMaxLanes), numbers);
 }
 
-void bind_params(Instance::Bound& bound, const Program& program, const BoundValues& values, StringPool& strings) {
+void bind_params(Instance::Bound& bound, const Program& program, const BoundValues& values,
+                 StringPool& strings) {
   size_t planes = 0;
   for (const auto& v : values)
     if (v) planes += v->numbers.size() + v->strings.size();
@@ -65,13 +70,16 @@ void bind_params(Instance::Bound& bound, const Program& program, const BoundValu
   for (size_t i = 0; i < program.params.size(); ++i) {
     const Param& p = program.params[i];
     if (!values[i]) {
-      if (p.init >= 0) bound.defaults.emplace_back(static_cast<uint32_t>(p.init), static_cast<uint32_t>(p.slot));
+      if (p.init >= 0)
+        bound.defaults.emplace_back(static_cast<uint32_t>(p.init), static_cast<uint32_t>(p.slot));
       continue;
     }
     std::vector<float> numbers = values[i]->numbers;
-    for (const std::string& s : values[i]->strings) numbers.push_back(std::bit_cast<float>(strings.intern(s)));
+    for (const std::string& s : values[i]->strings)
+      numbers.push_back(std::bit_cast<float>(strings.intern(s)));
     splat(next, numbers);
-    if (p.slot >= 0) bound.param_planes[static_cast<size_t>(p.slot)] = {next, kMaxLanes, 0, p.type, p.elements};
+    if (p.slot >= 0)
+      bound.param_planes[static_cast<size_t>(p.slot)] = {next, kMaxLanes, 0, p.type, p.elements};
     next += numbers.size() * kMaxLanes;
   }
 }
@@ -85,7 +93,8 @@ void bind_variables(Instance::Bound& bound, const Program& program) {
   }
 }
 
-// Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot serve.
+// Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot
+// serve.
 std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels) {
   std::vector<bool> called(program.imports.size());
   size_t emitters = 0;
@@ -106,10 +115,11 @@ std::string bind_code(Instance::Bound& bound, const Program& program, const Kern
     ShadeopId id = program.imports[i];
     const ShadeopInfo& info = shadeop(id);
     bound.imports.push_back({kernels[id], grid_op(id)});
-    bound.reads_messages |= info.name == "surface" || info.name == "displacement" || info.name == "atmosphere";
+    bound.reads_messages |=
+        info.name == "surface" || info.name == "displacement" || info.name == "atmosphere";
     if (called[i] && info.kind == ShadeopKind::kPending)
-      return fmt::format("{} \"{}\" calls '{}', which this build cannot serve", shader_kind_name(program.kind), program.name,
-                         info.name);
+      return fmt::format("{} \"{}\" calls '{}', which this build cannot serve",
+                         shader_kind_name(program.kind), program.name, info.name);
   }
   return {};
 }
@@ -119,7 +129,8 @@ std::vector<std::string> split_categories(const std::string& list) {
   for (size_t at = 0; at < list.size();) {
     size_t end = std::min(list.find(',', at), list.size());
     size_t first = list.find_first_not_of(" \t", at), last = list.find_last_not_of(" \t", end - 1);
-    if (first < end && last != list.npos && last >= first) out.push_back(list.substr(first, last + 1 - first));
+    if (first < end && last != list.npos && last >= first)
+      out.push_back(list.substr(first, last + 1 - first));
     at = end + 1;
   }
   return out;
@@ -127,7 +138,8 @@ std::vector<std::string> split_categories(const std::string& list) {
 
 } // namespace
 
-Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader, std::span<const ParamValue> given,
+Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader,
+                                                       std::span<const ParamValue> given,
                                                        const InstanceOptions& options) const {
   std::unique_ptr<Instance> instance(new Instance);
   instance->id_ = ++instances_;
@@ -153,8 +165,8 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
 void Machine::report(const RuntimeMessage& message) const {
   std::lock_guard lock(messages_mutex_);
   for (RuntimeMessage& known : messages_)
-    if (known.line == message.line && known.file == message.file && known.shader == message.shader && known.severity == message.severity &&
-        known.text == message.text) {
+    if (known.line == message.line && known.file == message.file && known.shader == message.shader &&
+        known.severity == message.severity && known.text == message.text) {
       known.points += message.points;
       known.total += message.total;
       return;

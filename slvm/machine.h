@@ -1,12 +1,11 @@
-// The virtual machine: load compiled shaders, bind parameter values, run them on grids, read what they computed.
-// PUBLIC; the way in for renderers.
+// The virtual machine: load compiled shaders, bind parameter values, run them on grids, read what they
+// computed. PUBLIC; the way in for renderers.
 //
 //   slvm::Machine machine;                                    // one for all threads
-//   auto shader = machine.load_file("plastic.slo");           // verified; Result<std::shared_ptr<const Shader>>
-//   auto plastic = machine.instantiate(*shader, {{"Kd", {...}}}, {});
-//   slvm::ShadingContext context(machine, services);          // one for each thread
-//   context.shade({.surface = plastic->get()}, grid);         // fills Ci, Oi
-//   grid.variable(slvm::Global::kCi).get(0, point);
+//   auto shader = machine.load_file("plastic.slo");           // verified; Result<std::shared_ptr<const
+//   Shader>> auto plastic = machine.instantiate(*shader, {{"Kd", {...}}}, {}); slvm::ShadingContext
+//   context(machine, services);          // one for each thread context.shade({.surface = plastic->get()},
+//   grid);         // fills Ci, Oi grid.variable(slvm::Global::kCi).get(0, point);
 #pragma once
 
 #include "slvm/format/program.h"
@@ -30,11 +29,11 @@ class ConstantEvaluator;
 }
 
 struct MachineOptions {
-  /// Points a strip: how many are taken through a run of instructions at a time. A multiple of 16; results do not
-  /// depend on it.
+  /// Points a strip: how many are taken through a run of instructions at a time. A multiple of 16; results do
+  /// not depend on it.
   uint32_t strip_points = 128;
   /// Instruction set by name ("AVX3", "AVX2", "SSE4", "EMU128"...); empty: the best this processor has.
-  std::string target;
+  std::string target = {};
   /// Re-run the optimiser on each instance with its parameter values folded in.
   bool specialise = true;
   /// Fill registers with signalling NaN before each run, so that a read of an unset value shows.
@@ -53,7 +52,8 @@ private:
   Program program_;
 };
 
-/// A parameter value as a scene gives it. Points, vectors, normals and matrices are in the shader's own space.
+/// A parameter value as a scene gives it. Points, vectors, normals and matrices are in the shader's own
+/// space.
 struct ParamValue {
   std::string name;
   Value value;
@@ -61,9 +61,9 @@ struct ParamValue {
 
 struct InstanceOptions {
   /// "shader" to "current": the transformation at the scene's request for this shader.
-  Matrix4 shader_to_current;
+  Matrix4 shader_to_current = {};
   /// Names of parameters that primitives may override by primitive variables: not folded in as constants.
-  std::vector<std::string> may_vary;
+  std::vector<std::string> may_vary = {};
 };
 
 /// A shader with parameter values: what a primitive, or the list of lights, refers to. Immutable.
@@ -103,8 +103,8 @@ public:
   Result<std::shared_ptr<const Shader>> load(std::span<const std::byte> slo) const;
   Result<std::shared_ptr<const Shader>> load_file(const std::string& path) const;
 
-  /// Binds parameter values. Errors: an unknown parameter (with the nearest name), a wrong type or array length, a
-  /// built-in function this build cannot serve.
+  /// Binds parameter values. Errors: an unknown parameter (with the nearest name), a wrong type or array
+  /// length, a built-in function this build cannot serve.
   Result<std::unique_ptr<Instance>> instantiate(std::shared_ptr<const Shader>, std::span<const ParamValue>,
                                                 const InstanceOptions& = {}) const;
 
@@ -134,8 +134,9 @@ public:
   ShadingContext(const Machine&, RendererServices&);
   ~ShadingContext();
 
-  /// Runs displacement, surface and atmosphere, those that are there, in this order, with message passing between
-  /// them. Ci and Oi start as Cs and Os (all 1 when these are not set). Missing input variables have defaults.
+  /// Runs displacement, surface and atmosphere, those that are there, in this order, with message passing
+  /// between them. Ci and Oi start as Cs and Os (all 1 when these are not set). Missing input variables have
+  /// defaults.
   void shade(const ShaderSet&, Grid&);
   /// Only the displacement shader: moves P, and N if it sets it.
   void displace(const ShaderSet&, Grid&);

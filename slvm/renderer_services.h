@@ -1,8 +1,9 @@
-// All that running shaders ask of a renderer. PUBLIC, abstract: the renderer implements it, sltest does with a small
-// in-memory scene, and so can an embedder. Calls come from many threads at once, each for one whole grid.
+// All that running shaders ask of a renderer. PUBLIC, abstract: the renderer implements it, sltest does with
+// a small in-memory scene, and so can an embedder. Calls come from many threads at once, each for one whole
+// grid.
 //
-// "current" is the space of every geometric value on a grid; the VM itself knows "current", "shader" (of the instance)
-// and "object" (of the grid) and asks here for the others.
+// "current" is the space of every geometric value on a grid; the VM itself knows "current", "shader" (of the
+// instance) and "object" (of the grid) and asks here for the others.
 #pragma once
 
 #include "slvm/grid.h"
@@ -46,13 +47,14 @@ class RendererServices {
 public:
   virtual ~RendererServices() = default;
 
-  /// The matrix from a named space to "current" and back. "world", "camera", "screen", "raster", "NDC" and whatever
-  /// the scene names. Projective spaces give projective matrices. False: no such space; `m` is then not read.
+  /// The matrix from a named space to "current" and back. "world", "camera", "screen", "raster", "NDC" and
+  /// whatever the scene names. Projective spaces give projective matrices. False: no such space; `m` is then
+  /// not read.
   virtual bool space_to_current(const ShadingState&, std::string_view space, Matrix4& m) = 0;
   virtual bool current_to_space(const ShadingState&, std::string_view space, Matrix4& m) = 0;
 
-  /// Light shader instances that are on for this primitive, in order of declaration. The span and the instances live
-  /// until the grid is done.
+  /// Light shader instances that are on for this primitive, in order of declaration. The span and the
+  /// instances live until the grid is done.
   virtual std::span<const Instance* const> lights(const ShadingState&) = 0;
 
   /// Queries by name ("Sides", "user:...", "Ri:Matte"). False: unknown name. The VM checks the type.

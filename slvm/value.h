@@ -11,8 +11,8 @@ namespace slvm {
 
 struct Value {
   Type type = Type::kFloat;
-  uint32_t elements = 0;            ///< array length; 0: not an array
-  std::vector<float> numbers;       ///< components() floats an element (matrices row by row); empty for strings
+  uint32_t elements = 0;      ///< array length; 0: not an array
+  std::vector<float> numbers; ///< components() floats an element (matrices row by row); empty for strings
   std::vector<std::string> strings; ///< one an element; empty otherwise
 
   size_t count() const { return elements ? elements : 1; }

@@ -10,8 +10,8 @@ slvm::ir::ValueId Lowering::call(const CallExpr& e) {
   return e.function ? inline_function(e) : builtin_call(e);
 }
 
-// Formals are variables of their own: output ones are copied back afterwards, which no RSL program can tell from
-// passing by reference unless it passes one variable twice.
+// Formals are variables of their own: output ones are copied back afterwards, which no RSL program can tell
+// from passing by reference unless it passes one variable twice.
 slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
   const FunctionDef& f = *e.function;
   size_t declared_from = declared_.size();
@@ -51,7 +51,8 @@ slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
   return out;
 }
 
-// random() has no arguments: its values come from a counter, so that they depend on nothing but place and program.
+// random() has no arguments: its values come from a counter, so that they depend on nothing but place and
+// program.
 slvm::ir::ValueId Lowering::random_call(const CallExpr& e, const slvm::ShadeopInfo& info) {
   ValueId count = values_[random_counter_];
   values_[random_counter_] = b_.call("operator+", "float(float a, float b)", {count, b_.number(1)});

@@ -20,14 +20,16 @@ slvm::ir::ValueId Lowering::value(const Expr& e) {
   case ExprKind::kTuple: {
     const auto& t = static_cast<const TupleExpr&>(e);
     Values args;
-    for (const ExprPtr& element : t.elements) args.push_back(value(*element));
+    for (const ExprPtr& element : t.elements)
+      args.push_back(value(*element));
     v = call_row(t.shadeop, std::move(args));
     break;
   }
   case ExprKind::kOperator: {
     const auto& o = static_cast<const OperatorExpr&>(e);
     Values args;
-    for (const ExprPtr& operand : o.operands) args.push_back(value(*operand));
+    for (const ExprPtr& operand : o.operands)
+      args.push_back(value(*operand));
     v = call_row(o.shadeop, std::move(args));
     break;
   }
@@ -58,15 +60,16 @@ slvm::ir::ValueId Lowering::variable_value(const VariableExpr& e) {
   return e.array_length == kNotArray ? read(*e.variable) : b_.array(array_of(*e.variable));
 }
 
-// The right side runs only in lanes that need it. When it only computes, running it everywhere is the same and cheaper.
+// The right side runs only in lanes that need it. When it only computes, running it everywhere is the same
+// and cheaper.
 slvm::ir::ValueId Lowering::logical(const LogicalExpr& e) {
   ValueId left = value(*e.left);
   Values before = values_;
   ValueId right = ir::kNoValue;
   ir::Region side = region([&] { right = value(*e.right); });
   bool pure = values_ == before && std::all_of(side.body.begin(), side.body.end(), [&](ir::InstId id) {
-    return m_.insts[id].regions.empty() && ir::effect_of(m_, m_.insts[id]) == ir::Effect::kNone;
-  });
+                return m_.insts[id].regions.empty() && ir::effect_of(m_, m_.insts[id]) == ir::Effect::kNone;
+              });
   if (pure) {
     ir::Region* here = b_.region();
     here->body.insert(here->body.end(), side.body.begin(), side.body.end());
@@ -84,7 +87,8 @@ slvm::ir::ValueId Lowering::logical(const LogicalExpr& e) {
 
 slvm::ir::ValueId Lowering::conditional(const ConditionalExpr& e) {
   ValueId condition = value(*e.condition);
-  return branch(condition, e.type, [&] { return value(*e.then_value); }, [&] { return value(*e.else_value); });
+  return branch(
+      condition, e.type, [&] { return value(*e.then_value); }, [&] { return value(*e.else_value); });
 }
 
 // ---- Places.
@@ -125,7 +129,8 @@ slvm::ir::ValueId Lowering::assignment(const AssignExpr& e) {
     array_assignment(array_of(*target.variable), *e.value);
     return ir::kNoValue;
   }
-  bool outer = std::exchange(uniform_wanted_, target.variable->detail_given && target.variable->detail == Detail::kUniform);
+  bool outer = std::exchange(uniform_wanted_,
+                             target.variable->detail_given && target.variable->detail == Detail::kUniform);
   if (e.compound) targets_.push_back(load(target));
   ValueId v = value(*e.value);
   if (e.compound) targets_.pop_back();
@@ -139,9 +144,11 @@ void Lowering::array_assignment(uint32_t array, const Expr& init) {
   if (m_.arrays[array].slot >= 0) m_.slots[static_cast<size_t>(m_.arrays[array].slot)].stored = true;
   const auto& list = static_cast<const ArrayInitExpr&>(init);
   Values elements;
-  for (const ExprPtr& e : list.elements) elements.push_back(value(*e));
+  for (const ExprPtr& e : list.elements)
+    elements.push_back(value(*e));
   if (elements.size() < m_.arrays[array].elements) b_.array_clear(array);
-  for (size_t i = 0; i < elements.size(); ++i) b_.array_store(array, b_.number(static_cast<float>(i)), elements[i]);
+  for (size_t i = 0; i < elements.size(); ++i)
+    b_.array_store(array, b_.number(static_cast<float>(i)), elements[i]);
 }
 
 } // namespace slc

@@ -20,14 +20,17 @@ const ir::Constant* constant_of(const ir::Module& m, const ir::Region& r, ir::Va
 }
 
 // True when the region yields nothing but constants, which are then stored to `out`.
-bool constant_yield(const ir::Module& m, const ir::Region& r, Type type, uint32_t elements, slvm::Value& out) {
+bool constant_yield(const ir::Module& m, const ir::Region& r, Type type, uint32_t elements,
+                    slvm::Value& out) {
   const ir::Inst& yield = m.insts[r.body.back()];
   slvm::Value v{type, elements, {}, {}};
   for (ir::ValueId arg : yield.args) {
     const ir::Constant* c = constant_of(m, r, arg);
     if (!c) return false;
-    if (type == Type::kString) v.strings.push_back(c->text);
-    else v.numbers.insert(v.numbers.end(), c->numbers.begin(), c->numbers.end());
+    if (type == Type::kString)
+      v.strings.push_back(c->text);
+    else
+      v.numbers.insert(v.numbers.end(), c->numbers.begin(), c->numbers.end());
   }
   out = std::move(v);
   return true;
@@ -39,7 +42,8 @@ void settle_defaults(ir::Module& m) {
   std::vector<ir::Region> kept;
   for (slvm::Param& p : m.params) {
     const ir::Region& init = m.inits[static_cast<size_t>(p.init)];
-    if (!p.default_space.empty()) { // computed from a value in a space: lowering noted where the plain value is
+    if (!p.default_space
+             .empty()) { // computed from a value in a space: lowering noted where the plain value is
       const ir::Region& plain = m.inits[p.default_value.elements];
       p.default_known = constant_yield(m, plain, p.type, p.elements, p.default_value);
       if (!p.default_known) p.default_value = {p.type, p.elements, {}, {}};
@@ -47,8 +51,10 @@ void settle_defaults(ir::Module& m) {
       p.default_value = {p.type, p.elements, {}, {}};
       p.default_known = constant_yield(m, init, p.type, p.elements, p.default_value);
       if (p.default_known) {
-        if (p.type == Type::kColor) p.default_space = "rgb";
-        else if (slvm::is_geometric(p.type) || p.type == Type::kMatrix) p.default_space = "current";
+        if (p.type == Type::kColor)
+          p.default_space = "rgb";
+        else if (slvm::is_geometric(p.type) || p.type == Type::kMatrix)
+          p.default_space = "current";
         p.init = -1;
         continue;
       }
@@ -81,7 +87,8 @@ slvm::Facts collect_facts(const ir::Module& m) {
     if (info.flags & slvm::kContextOut && info.flags & slvm::kHiddenVarying)
       messages.insert(std::string(info.name) + ":" + first->text);
   };
-  for (const ir::Region& r : m.inits) ir::for_each_inst(m, r, visit);
+  for (const ir::Region& r : m.inits)
+    ir::for_each_inst(m, r, visit);
   ir::for_each_inst(m, m.body, visit);
   facts.messages_read.assign(messages.begin(), messages.end());
   facts.texture_names.assign(textures.begin(), textures.end());

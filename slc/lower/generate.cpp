@@ -11,17 +11,19 @@
 
 namespace slc {
 
-std::vector<CompiledShader> Compiler::compile(slvm::FileId main, const CompileOptions& options, slvm::SourceManager& sources,
-                                              slvm::Diagnostics& diags) const {
+std::vector<CompiledShader> Compiler::compile(slvm::FileId main, const CompileOptions& options,
+                                              slvm::SourceManager& sources, slvm::Diagnostics& diags) const {
   CheckedSource checked = check(main, options, sources, diags);
   if (diags.has_errors()) return {};
   return generate(checked, main, options, sources);
 }
 
-std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slvm::FileId main, const CompileOptions& options,
+std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slvm::FileId main,
+                                               const CompileOptions& options,
                                                const slvm::SourceManager& sources) const {
   std::vector<std::string> files;
-  for (slvm::FileId id = 0; id < sources.count(); ++id) files.emplace_back(sources.name(id));
+  for (slvm::FileId id = 0; id < sources.count(); ++id)
+    files.emplace_back(sources.name(id));
   std::vector<CompiledShader> out;
   for (const Shader& shader : checked.unit.shaders) {
     CompiledShader& compiled = out.emplace_back();
@@ -34,7 +36,8 @@ std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slv
     p.name = shader.name;
     p.source_name = sources.name(main);
     p.source_hash = slvm::hash_bytes(std::as_bytes(std::span(checked.text.text)));
-    for (const Annotation& a : shader.annotations) p.annotations.push_back({a.id, a.text});
+    for (const Annotation& a : shader.annotations)
+      p.annotations.push_back({a.id, a.text});
     p.facts = collect_facts(compiled.module);
     slvm::ir::emit(compiled.module, p);
     p.ir = slvm::ir::serialise(compiled.module);

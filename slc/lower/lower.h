@@ -1,4 +1,5 @@
-// From the checked syntax tree to IR: one shader at a time, functions inlined, variables turned into SSA values.
+// From the checked syntax tree to IR: one shader at a time, functions inlined, variables turned into SSA
+// values.
 #pragma once
 
 #include "slc/ast/unit.h"
@@ -15,8 +16,8 @@ slvm::ir::Module lower_shader(const Shader& shader, std::vector<std::string> fil
 /// What introspection tells beside the parameters, read off the (optimised) code.
 slvm::Facts collect_facts(const slvm::ir::Module& m);
 
-/// After optimisation: settles what each parameter's default is (a constant in some space, or code), and drops code
-/// that only computes a constant.
+/// After optimisation: settles what each parameter's default is (a constant in some space, or code), and
+/// drops code that only computes a constant.
 void settle_defaults(slvm::ir::Module& m);
 
 } // namespace slc

@@ -1,8 +1,10 @@
-// The state of lowering one shader. Read next: shader.cpp (begin and end), statements.cpp, expressions.cpp, calls.cpp.
+// The state of lowering one shader. Read next: shader.cpp (begin and end), statements.cpp, expressions.cpp,
+// calls.cpp.
 //
-// Every scalar variable in scope has a current value; assignment replaces it. Where control flow meets, values that
-// differ become results of the region's instruction. A loop carries all variables in scope: which of them change is
-// known only at its end, and the copies pass drops the others. Arrays are memory of their own.
+// Every scalar variable in scope has a current value; assignment replaces it. Where control flow meets,
+// values that differ become results of the region's instruction. A loop carries all variables in scope: which
+// of them change is known only at its end, and the copies pass drops the others. Arrays are memory of their
+// own.
 #pragma once
 
 #include "slc/ast/unit.h"
@@ -71,8 +73,7 @@ private:
   void loop_steps(const LoopStmt& s);
 
   /// Lowers into a region of its own; the region of before is current again afterwards.
-  template <class F>
-  ir::Region region(F&& fill) {
+  template <class F> ir::Region region(F&& fill) {
     ir::Region out;
     ir::Region* outer = b_.region();
     b_.set_region(&out);
@@ -80,7 +81,8 @@ private:
     b_.set_region(outer);
     return out;
   }
-  /// Two-way branch: lowers both sides, merges the variables they changed. Sides may give a value of type `type`.
+  /// Two-way branch: lowers both sides, merges the variables they changed. Sides may give a value of type
+  /// `type`.
   template <class Then, class Else>
   ValueId branch(ValueId condition, Type type, Then&& then_side, Else&& else_side);
 
@@ -118,10 +120,11 @@ private:
 
   std::unordered_map<const Variable*, size_t> indices_;
   size_t global_index_[slvm::kGlobalCount] = {}; ///< of writable predefined variables; 0: not one
-  std::vector<Type> variable_types_; ///< by variable index
+  std::vector<Type> variable_types_;             ///< by variable index
   Values values_;
   Values initial_; ///< by variable index: what a global or output parameter was when the shader began
-  std::vector<std::pair<size_t, uint32_t>> stored_back_; ///< variable index and slot: stored at the end when changed
+  std::vector<std::pair<size_t, uint32_t>>
+      stored_back_;         ///< variable index and slot: stored at the end when changed
   size_t outputs_from_ = 0; ///< stored_back_ from here on are output parameters
   std::unordered_map<const Variable*, uint32_t> arrays_;
   std::unordered_map<const Variable*, uint32_t> param_slots_;
@@ -136,7 +139,8 @@ private:
   std::vector<Function> functions_;
   std::vector<ValueId> targets_; ///< old values of compound assignments being evaluated
   size_t random_counter_ = 0;    ///< variable index of the hidden counter behind random()
-  bool uniform_wanted_ = false;  ///< inside the value of a variable declared uniform: random() is uniform there
+  bool uniform_wanted_ =
+      false; ///< inside the value of a variable declared uniform: random() is uniform there
 };
 
 template <class Then, class Else>
@@ -157,14 +161,16 @@ slvm::ir::ValueId Lowering::branch(ValueId condition, Type type, Then&& then_sid
   }
   std::vector<size_t> changed;
   for (size_t i = 0; i < before.size(); ++i)
-    if (before[i] != ir::kNoValue && ((!ends[0] && after[0][i] != before[i]) || (!ends[1] && after[1][i] != before[i])))
+    if (before[i] != ir::kNoValue &&
+        ((!ends[0] && after[0][i] != before[i]) || (!ends[1] && after[1][i] != before[i])))
       changed.push_back(i);
   bool has_value = type != Type::kVoid;
   for (int side = 0; side < 2; ++side) {
     if (ends[side]) continue;
     Values out;
     if (has_value) out.push_back(results[side]);
-    for (size_t i : changed) out.push_back(after[side][i]);
+    for (size_t i : changed)
+      out.push_back(after[side][i]);
     ir::Region* outer = b_.region();
     b_.set_region(&regions[side]);
     b_.yield(std::move(out));
@@ -172,14 +178,16 @@ slvm::ir::ValueId Lowering::branch(ValueId condition, Type type, Then&& then_sid
   }
   std::vector<Type> types;
   if (has_value) types.push_back(type);
-  for (size_t i : changed) types.push_back(variable_types_[i]);
+  for (size_t i : changed)
+    types.push_back(variable_types_[i]);
   std::vector<ir::Region> list;
   list.push_back(std::move(regions[0]));
   list.push_back(std::move(regions[1]));
   ir::InstId id = b_.region_inst(ir::Op::kIf, 0, {condition}, std::move(list), types);
   values_ = before;
   values_.resize(variable_types_.size(), ir::kNoValue);
-  for (size_t i = 0; i < changed.size(); ++i) values_[changed[i]] = m_.insts[id].results[i + has_value];
+  for (size_t i = 0; i < changed.size(); ++i)
+    values_[changed[i]] = m_.insts[id].results[i + has_value];
   return has_value ? m_.insts[id].results[0] : ir::kNoValue;
 }
 

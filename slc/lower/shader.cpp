@@ -22,7 +22,8 @@ ir::Module Lowering::run() {
 
 // ---- External variables.
 
-uint32_t Lowering::slot_of(const std::string& name, Type type, uint32_t elements, bool parameter, bool varying) {
+uint32_t Lowering::slot_of(const std::string& name, Type type, uint32_t elements, bool parameter,
+                           bool varying) {
   for (size_t i = 0; i < m_.slots.size(); ++i)
     if (m_.slots[i].parameter == parameter && m_.slots[i].name == name) return static_cast<uint32_t>(i);
   m_.slots.push_back({name, type, elements, parameter, varying, false});
@@ -47,14 +48,16 @@ void Lowering::lower_params() {
     param_slots_[v] = slot;
     if (p.elements) arrays_[v] = b_.add_array(p.type, p.elements, p.slot);
   }
-  for (size_t i = 0; i < shader_.params.size(); ++i) lower_init(*shader_.params[i], m_.params[i]);
+  for (size_t i = 0; i < shader_.params.size(); ++i)
+    lower_init(*shader_.params[i], m_.params[i]);
   for (size_t i = 0; i < shader_.params.size(); ++i) { // after all inits: settle_defaults tells them apart
     const Expr* plain = spaceless_default(*shader_.params[i]);
     if (!plain) continue;
     values_.assign(variable_types_.size(), ir::kNoValue);
     ir::Region r = region([&] { b_.yield({value(*plain)}); });
     m_.params[i].default_space = shader_.params[i]->init_space;
-    m_.params[i].default_value.elements = static_cast<uint32_t>(m_.inits.size()); // where the plain value is computed
+    m_.params[i].default_value.elements =
+        static_cast<uint32_t>(m_.inits.size()); // where the plain value is computed
     m_.inits.push_back(std::move(r));
   }
 }
@@ -66,11 +69,13 @@ void Lowering::lower_init(const Variable& param, slvm::Param& out) {
     values_[random_counter_] = b_.number(0);
     Values results;
     if (const auto* list = as<ArrayInitExpr>(param.init.get())) {
-      for (const ExprPtr& e : list->elements) results.push_back(value(*e));
+      for (const ExprPtr& e : list->elements)
+        results.push_back(value(*e));
     } else {
       results.assign(std::max(out.elements, 1u), value(*param.init));
     }
-    while (results.size() < out.elements) results.push_back(zero(param.type));
+    while (results.size() < out.elements)
+      results.push_back(zero(param.type));
     b_.yield(std::move(results));
   });
   out.init = static_cast<int32_t>(m_.inits.size());
@@ -81,7 +86,8 @@ void Lowering::lower_init(const Variable& param, slvm::Param& out) {
 const Expr* Lowering::spaceless_default(const Variable& param) const {
   if (param.init_space.empty() || param.type == Type::kColor) return nullptr;
   const Expr* e = param.init.get();
-  while (const auto* convert = as<ConvertExpr>(e)) e = convert->operand.get();
+  while (const auto* convert = as<ConvertExpr>(e))
+    e = convert->operand.get();
   if (const auto* c = as<CallExpr>(e)) return c->args.empty() ? nullptr : c->args.back().get();
   if (const auto* o = as<OperatorExpr>(e)) return o->operands.size() == 2 ? o->operands[1].get() : nullptr;
   return nullptr;
@@ -118,7 +124,8 @@ slvm::ir::ValueId Lowering::read(const Variable& v) {
 
 void Lowering::write(const Variable& v, ValueId value) {
   if (v.kind == VariableKind::kGlobal && !global_index_[static_cast<size_t>(v.global)]) {
-    b_.store(global_slot(v.global), value); // L of lights, which illuminate and solar set too: it stays memory
+    b_.store(global_slot(v.global),
+             value); // L of lights, which illuminate and solar set too: it stays memory
     return;
   }
   size_t i = index_of(v);
@@ -128,7 +135,8 @@ void Lowering::write(const Variable& v, ValueId value) {
 
 void Lowering::forget(size_t declared_from) {
   values_.resize(variable_types_.size(), ir::kNoValue);
-  for (size_t i = declared_from; i < declared_.size(); ++i) values_[declared_[i]] = ir::kNoValue;
+  for (size_t i = declared_from; i < declared_.size(); ++i)
+    values_[declared_[i]] = ir::kNoValue;
   declared_.resize(declared_from);
 }
 
@@ -142,11 +150,12 @@ uint32_t Lowering::array_of(const Variable& v) {
 
 namespace {
 
-// Different shaders draw different random numbers: each counts from a place of its own. Exact in a float for the
-// first 2^23 calls.
+// Different shaders draw different random numbers: each counts from a place of its own. Exact in a float for
+// the first 2^23 calls.
 float random_start(std::string_view name) {
   uint32_t h = 2166136261u;
-  for (char c : name) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
+  for (char c : name)
+    h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
   return static_cast<float>(h & 0x7fffff);
 }
 
@@ -154,12 +163,15 @@ bool returns_somewhere(const Stmt* s) {
   if (!s) return false;
   if (as<ReturnStmt>(s)) return true;
   if (const auto* x = as<BlockStmt>(s))
-    return std::any_of(x->statements.begin(), x->statements.end(), [](const StmtPtr& p) { return returns_somewhere(p.get()); });
-  if (const auto* x = as<IfStmt>(s)) return returns_somewhere(x->then_branch.get()) || returns_somewhere(x->else_branch.get());
+    return std::any_of(x->statements.begin(), x->statements.end(),
+                       [](const StmtPtr& p) { return returns_somewhere(p.get()); });
+  if (const auto* x = as<IfStmt>(s))
+    return returns_somewhere(x->then_branch.get()) || returns_somewhere(x->else_branch.get());
   if (const auto* x = as<LoopStmt>(s)) return returns_somewhere(x->body.get());
   if (const auto* x = as<IlluminanceStmt>(s)) return returns_somewhere(x->body.get());
   if (const auto* x = as<EmissionStmt>(s)) return returns_somewhere(x->body.get());
-  if (const auto* x = as<GatherStmt>(s)) return returns_somewhere(x->body.get()) || returns_somewhere(x->else_body.get());
+  if (const auto* x = as<GatherStmt>(s))
+    return returns_somewhere(x->body.get()) || returns_somewhere(x->else_body.get());
   return false;
 }
 
@@ -227,7 +239,8 @@ void Lowering::function_body(const BlockStmt& body, size_t result) {
   set_values(frame.carried, m_.insts[id].results);
 }
 
-// Stores what the shader changed of its variables: at the end, and where lights may look at output parameters.
+// Stores what the shader changed of its variables: at the end, and where lights may look at output
+// parameters.
 void Lowering::store_changed(bool outputs_only) {
   for (size_t i = outputs_only ? outputs_from_ : 0; i < stored_back_.size(); ++i) {
     auto [variable, slot] = stored_back_[i];

@@ -15,20 +15,23 @@ std::vector<size_t> Lowering::in_scope() const {
 
 Lowering::Values Lowering::values_for(const std::vector<size_t>& variables) const {
   Values out;
-  for (size_t i : variables) out.push_back(values_[i]);
+  for (size_t i : variables)
+    out.push_back(values_[i]);
   return out;
 }
 
 std::vector<Type> Lowering::types_of(const std::vector<size_t>& variables) const {
   std::vector<Type> out;
-  for (size_t i : variables) out.push_back(variable_types_[i]);
+  for (size_t i : variables)
+    out.push_back(variable_types_[i]);
   return out;
 }
 
 // What a region declared is out of scope after it: only these have values.
 void Lowering::set_values(const std::vector<size_t>& variables, const Values& values) {
   values_.assign(variable_types_.size(), ir::kNoValue);
-  for (size_t i = 0; i < variables.size(); ++i) values_[variables[i]] = values[i];
+  for (size_t i = 0; i < variables.size(); ++i)
+    values_[variables[i]] = values[i];
 }
 
 void Lowering::open_carried(ir::Region& region, const std::vector<size_t>& carried) {
@@ -48,11 +51,13 @@ void Lowering::statement(const Stmt& s) {
   case StmtKind::kDeclaration: {
     const auto& d = static_cast<const DeclarationStmt&>(s);
     if (!d.is_extern)
-      for (const Variable* v : d.variables) declaration(*v);
+      for (const Variable* v : d.variables)
+        declaration(*v);
     break;
   }
   case StmtKind::kExpression:
-    for (const ExprPtr& e : static_cast<const ExpressionStmt&>(s).expressions) value(*e);
+    for (const ExprPtr& e : static_cast<const ExpressionStmt&>(s).expressions)
+      value(*e);
     break;
   case StmtKind::kIf: if_statement(static_cast<const IfStmt&>(s)); break;
   case StmtKind::kLoop: loop(static_cast<const LoopStmt&>(s)); break;
@@ -66,9 +71,12 @@ void Lowering::statement(const Stmt& s) {
 
 void Lowering::block(const BlockStmt& s) {
   size_t declared_from = declared_.size();
-  for (const StmtPtr& inner : s.statements) statement(*inner);
-  if (!b_.terminated()) forget(declared_from);
-  else declared_.resize(declared_from);
+  for (const StmtPtr& inner : s.statements)
+    statement(*inner);
+  if (!b_.terminated())
+    forget(declared_from);
+  else
+    declared_.resize(declared_from);
 }
 
 void Lowering::declaration(const Variable& v) {
@@ -89,7 +97,8 @@ void Lowering::initialise_array(const Variable& v) {
   uint32_t array = array_of(v);
   if (v.init && !as<ArrayInitExpr>(v.init.get())) { // one value for every element
     ValueId x = value(*v.init);
-    for (int i = 0; i < v.array_length; ++i) b_.array_store(array, b_.number(static_cast<float>(i)), x);
+    for (int i = 0; i < v.array_length; ++i)
+      b_.array_store(array, b_.number(static_cast<float>(i)), x);
     return;
   }
   b_.array_clear(array);
@@ -105,11 +114,13 @@ void Lowering::if_statement(const IfStmt& s) {
     declared_.resize(declared_from);
     return ir::kNoValue;
   };
-  branch(condition, Type::kVoid, [&] { return side(s.then_branch); }, [&] { return side(s.else_branch); });
+  branch(
+      condition, Type::kVoid, [&] { return side(s.then_branch); }, [&] { return side(s.else_branch); });
 }
 
 void Lowering::loop_steps(const LoopStmt& s) {
-  for (const ExprPtr& step : s.steps) value(*step);
+  for (const ExprPtr& step : s.steps)
+    value(*step);
 }
 
 void Lowering::loop(const LoopStmt& s) {
@@ -143,14 +154,16 @@ void Lowering::loop(const LoopStmt& s) {
   frames_.pop_back();
   std::vector<ir::Region> regions;
   regions.push_back(std::move(body));
-  ir::InstId id = b_.region_inst(ir::Op::kLoop, 0, std::move(initial), std::move(regions), types_of(frame.carried));
+  ir::InstId id =
+      b_.region_inst(ir::Op::kLoop, 0, std::move(initial), std::move(regions), types_of(frame.carried));
   set_values(frame.carried, m_.insts[id].results);
   forget(declared_from);
 }
 
 void Lowering::jump(const JumpStmt& s) {
   size_t f = frames_.size();
-  for (int to_pass = s.levels; to_pass > 0;) to_pass -= frames_[--f].user_loop;
+  for (int to_pass = s.levels; to_pass > 0;)
+    to_pass -= frames_[--f].user_loop;
   auto level = static_cast<uint32_t>(frames_.size() - 1 - f);
   if (s.is_break) {
     b_.break_out(level, values_for(frames_[f].carried));
@@ -164,14 +177,16 @@ void Lowering::return_statement(const ReturnStmt& s) {
   const Function function = functions_.back();
   if (s.value) values_[function.result] = value(*s.value);
   if (!function.in_block) return; // the last statement
-  b_.break_out(static_cast<uint32_t>(frames_.size() - 1 - function.frame), values_for(frames_[function.frame].carried));
+  b_.break_out(static_cast<uint32_t>(frames_.size() - 1 - function.frame),
+               values_for(frames_[function.frame].carried));
 }
 
 void Lowering::illuminance(const IlluminanceStmt& s) {
   store_changed(true); // lights may ask for output parameters
   Values args{s.category ? value(*s.category) : b_.string(""), value(*s.position),
               s.axis ? value(*s.axis) : zero(Type::kVector), s.angle ? value(*s.angle) : zero(Type::kFloat)};
-  for (Global g : {Global::kL, Global::kCl, Global::kOl}) global_slot(g); // bound for each light
+  for (Global g : {Global::kL, Global::kCl, Global::kOl})
+    global_slot(g); // bound for each light
   Frame frame{true, in_scope(), nullptr};
   Values initial = values_for(frame.carried);
   args.insert(args.end(), initial.begin(), initial.end());
@@ -186,7 +201,8 @@ void Lowering::illuminance(const IlluminanceStmt& s) {
   frames_.pop_back();
   std::vector<ir::Region> regions;
   regions.push_back(std::move(body));
-  ir::InstId id = b_.region_inst(ir::Op::kIlluminance, s.axis ? 1 : 0, std::move(args), std::move(regions), types_of(frame.carried));
+  ir::InstId id = b_.region_inst(ir::Op::kIlluminance, s.axis ? 1 : 0, std::move(args), std::move(regions),
+                                 types_of(frame.carried));
   set_values(frame.carried, m_.insts[id].results);
 }
 
@@ -197,7 +213,8 @@ void Lowering::emission(const EmissionStmt& s) {
   if (!s.is_solar) args.push_back(value(*s.position));
   args.push_back(axis);
   args.push_back(angle);
-  for (Global g : {Global::kL, Global::kPs, Global::kNs}) global_slot(g); // what the machine computes light from
+  for (Global g : {Global::kL, Global::kPs, Global::kNs})
+    global_slot(g); // what the machine computes light from
   Values before = values_;
   ir::Region body = region([&] {
     size_t declared_from = declared_.size();
@@ -223,12 +240,14 @@ void Lowering::emission(const EmissionStmt& s) {
   args.insert(args.end(), otherwise.begin(), otherwise.end());
   std::vector<ir::Region> regions;
   regions.push_back(std::move(body));
-  ir::InstId id = b_.region_inst(s.is_solar ? ir::Op::kSolar : ir::Op::kIlluminate, s.axis ? 1 : 0, std::move(args),
-                                 std::move(regions), types_of(changed));
-  for (size_t i = 0; i < changed.size(); ++i) values_[changed[i]] = m_.insts[id].results[i];
+  ir::InstId id = b_.region_inst(s.is_solar ? ir::Op::kSolar : ir::Op::kIlluminate, s.axis ? 1 : 0,
+                                 std::move(args), std::move(regions), types_of(changed));
+  for (size_t i = 0; i < changed.size(); ++i)
+    values_[changed[i]] = m_.insts[id].results[i];
 }
 
-// gather and traverse are calls whose row says that the build cannot serve them: the binder names the statement.
+// gather and traverse are calls whose row says that the build cannot serve them: the binder names the
+// statement.
 void Lowering::gather(const GatherStmt& s) {
   Values args{value(*s.category), value(*s.position), value(*s.direction)};
   if (!s.is_traverse) {

@@ -43,24 +43,31 @@ std::string check_type(const Param& p, const Value& v) {
   bool same = v.type == p.type || (is_geometric(v.type) && is_geometric(p.type));
   size_t numbers = p.type == Type::kString ? 0 : static_cast<size_t>(components(p.type)) * v.count();
   size_t strings = p.type == Type::kString ? v.count() : 0;
-  if (same && v.elements == p.elements && v.numbers.size() == numbers && v.strings.size() == strings) return {};
-  return fmt::format("parameter '{}' is a {}, not a {}", p.name, type_text(p.type, p.elements), type_text(v.type, v.elements));
+  if (same && v.elements == p.elements && v.numbers.size() == numbers && v.strings.size() == strings)
+    return {};
+  return fmt::format("parameter '{}' is a {}, not a {}", p.name, type_text(p.type, p.elements),
+                     type_text(v.type, v.elements));
 }
 
 std::string unknown_parameter(const Program& program, const std::string& name) {
   std::vector<std::string_view> names;
-  for (const Param& p : program.params) names.push_back(p.name);
-  std::string text = fmt::format("{} \"{}\" has no parameter '{}'", shader_kind_name(program.kind), program.name, name);
-  if (std::string_view near = nearest_name(name, names); !near.empty()) text += fmt::format("; did you mean '{}'?", near);
+  for (const Param& p : program.params)
+    names.push_back(p.name);
+  std::string text =
+      fmt::format("{} \"{}\" has no parameter '{}'", shader_kind_name(program.kind), program.name, name);
+  if (std::string_view near = nearest_name(name, names); !near.empty())
+    text += fmt::format("; did you mean '{}'?", near);
   return text;
 }
 
 } // namespace
 
-Result<BoundValues> bind_values(const Program& program, std::span<const ParamValue> given, const Matrix4& shader_to_current) {
+Result<BoundValues> bind_values(const Program& program, std::span<const ParamValue> given,
+                                const Matrix4& shader_to_current) {
   BoundValues values(program.params.size());
   for (const ParamValue& g : given) {
-    auto it = std::find_if(program.params.begin(), program.params.end(), [&](const Param& p) { return p.name == g.name; });
+    auto it = std::find_if(program.params.begin(), program.params.end(),
+                           [&](const Param& p) { return p.name == g.name; });
     if (it == program.params.end()) return Error{unknown_parameter(program, g.name)};
     if (std::string error = check_type(*it, g.value); !error.empty()) return Error{error};
     Value v = to_current(g.value, it->type, shader_to_current);
@@ -72,13 +79,15 @@ Result<BoundValues> bind_values(const Program& program, std::span<const ParamVal
     if (values[i] || !p.default_known) continue;
     bool in_shader_space = p.default_space == "shader" && p.type != Type::kColor;
     if (p.init >= 0 && !in_shader_space) continue; // needs other spaces: computed on each grid
-    values[i] = std::make_unique<Value>(in_shader_space ? to_current(p.default_value, p.type, shader_to_current) : p.default_value);
+    values[i] = std::make_unique<Value>(
+        in_shader_space ? to_current(p.default_value, p.type, shader_to_current) : p.default_value);
   }
   return values;
 }
 
 std::unique_ptr<const Program> specialise(const Program& program, const BoundValues& values,
-                                          std::span<const std::string> may_vary, const ir::ConstantEvaluator& evaluator) {
+                                          std::span<const std::string> may_vary,
+                                          const ir::ConstantEvaluator& evaluator) {
   if (program.ir.empty()) return nullptr;
   Result<ir::Module> module = ir::deserialise(program.ir);
   if (!module) return nullptr;
@@ -86,9 +95,11 @@ std::unique_ptr<const Program> specialise(const Program& program, const BoundVal
   for (size_t i = 0; i < values.size() && i < module->params.size(); ++i) {
     const Param& p = module->params[i];
     bool vary = p.varying || std::find(may_vary.begin(), may_vary.end(), p.name) != may_vary.end();
-    if (!values[i] || p.elements || p.slot < 0 || vary || module->slots[static_cast<size_t>(p.slot)].stored) continue;
+    if (!values[i] || p.elements || p.slot < 0 || vary || module->slots[static_cast<size_t>(p.slot)].stored)
+      continue;
     constant_of[static_cast<uint32_t>(p.slot)] = static_cast<uint32_t>(module->constants.size());
-    module->constants.push_back({p.type, values[i]->numbers, values[i]->strings.empty() ? "" : values[i]->strings[0]});
+    module->constants.push_back(
+        {p.type, values[i]->numbers, values[i]->strings.empty() ? "" : values[i]->strings[0]});
   }
   ir::for_each_root(*module, [&](ir::Region& r) {
     ir::for_each_inst(*module, r, [&](ir::InstId id) {

@@ -9,10 +9,12 @@ namespace slvm {
 using BoundValues = std::vector<std::unique_ptr<Value>>;
 
 /// Matches given values against parameters and brings them, and plain defaults, to "current" space.
-Result<BoundValues> bind_values(const Program& program, std::span<const ParamValue> given, const Matrix4& shader_to_current);
+Result<BoundValues> bind_values(const Program& program, std::span<const ParamValue> given,
+                                const Matrix4& shader_to_current);
 
 /// The program with these values folded in. Null when the program carries no IR or nothing is known.
 std::unique_ptr<const Program> specialise(const Program& program, const BoundValues& values,
-                                          std::span<const std::string> may_vary, const ir::ConstantEvaluator& evaluator);
+                                          std::span<const std::string> may_vary,
+                                          const ir::ConstantEvaluator& evaluator);
 
 } // namespace slvm

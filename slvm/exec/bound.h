@@ -1,5 +1,5 @@
-// What instantiate() prepares so that runs start at once: constants and parameter values as planes, functions of the
-// program's imports, and where predefined variables are among its slots.
+// What instantiate() prepares so that runs start at once: constants and parameter values as planes, functions
+// of the program's imports, and where predefined variables are among its slots.
 #pragma once
 
 #include "slvm/exec/grid_ops.h"
@@ -16,7 +16,8 @@ public:
   /// At least this many floats; contents are lost when it grows.
   float* reserve(size_t floats) {
     if (floats > size_) {
-      data_.reset(static_cast<float*>(::operator new[](floats * sizeof(float), std::align_val_t{kPlaneAlign})));
+      data_.reset(
+          static_cast<float*>(::operator new[](floats * sizeof(float), std::align_val_t{kPlaneAlign})));
       size_ = floats;
     }
     return data_.get();
@@ -32,9 +33,10 @@ private:
 };
 
 struct Instance::Bound {
-  PlaneMemory constants;            ///< kMaxLanes floats a plane
-  PlaneMemory params;               ///< values of parameters that have one
-  std::vector<Planes> param_planes; ///< by slot; data null: no value here (a predefined variable, or computed by init)
+  PlaneMemory constants; ///< kMaxLanes floats a plane
+  PlaneMemory params;    ///< values of parameters that have one
+  std::vector<Planes>
+      param_planes; ///< by slot; data null: no value here (a predefined variable, or computed by init)
   /// Defaults to compute at the begin of each run: code section, and slot of the parameter.
   std::vector<std::pair<uint32_t, uint32_t>> defaults;
   struct Import {
@@ -42,12 +44,12 @@ struct Instance::Bound {
     GridOp grid_op = nullptr;
   };
   std::vector<Import> imports;
-  std::vector<Global> globals;         ///< by slot; kCount for parameters
-  int32_t slot_of[kGlobalCount];       ///< by predefined variable; -1: not used by the program
-  size_t most_operands = 0;            ///< words of the longest call
-  bool emits = false;                  ///< a light with illuminate or solar: not an ambient light
-  bool emits_once = false;             ///< one such block, outside loops: its L, Cl and Ol stay where they are
-  bool reads_messages = false;         ///< its results depend on other shaders' parameters
+  std::vector<Global> globals;   ///< by slot; kCount for parameters
+  int32_t slot_of[kGlobalCount]; ///< by predefined variable; -1: not used by the program
+  size_t most_operands = 0;      ///< words of the longest call
+  bool emits = false;            ///< a light with illuminate or solar: not an ambient light
+  bool emits_once = false;       ///< one such block, outside loops: its L, Cl and Ol stay where they are
+  bool reads_messages = false;   ///< its results depend on other shaders' parameters
 };
 
 } // namespace slvm

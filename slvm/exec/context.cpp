@@ -32,7 +32,9 @@ struct ShadingContext::Impl {
     if (!instance) return nullptr;
     ShaderRun& run = run_of(role, *instance);
     run.prepare();
-    const ShaderRun*& known = role == kDisplacement ? state.displacement : role == kAtmosphere ? state.atmosphere : state.surface;
+    const ShaderRun*& known = role == kDisplacement ? state.displacement
+                              : role == kAtmosphere ? state.atmosphere
+                                                    : state.surface;
     if (role != kSingle) known = &run; // lights ask for its parameters while it runs
     run.execute();
     return &run;
@@ -56,8 +58,10 @@ void begin_output(Grid& grid, Global out, Global in) {
   float* to = grid.varying(out);
   for (size_t c = 0; c < 3; ++c) {
     float* plane = to + c * grid.pitch();
-    if (from.data && from.step) std::memcpy(plane, from.data + c * from.pitch, grid.pitch() * sizeof(float));
-    else std::fill_n(plane, grid.pitch(), from.data ? from.data[c * from.pitch] : 1.0f);
+    if (from.data && from.step)
+      std::memcpy(plane, from.data + c * from.pitch, grid.pitch() * sizeof(float));
+    else
+      std::fill_n(plane, grid.pitch(), from.data ? from.data[c * from.pitch] : 1.0f);
   }
 }
 

@@ -1,8 +1,8 @@
 // Differences over the grid: Du, Dv, area, calculatenormal.
 //
-// Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes beside others
-// that have none) one-sided; 0 where none does, and for all of a grid without extent in that direction. RISpec 3.2
-// leaves the scheme open; this is PRMan's default ("derivatives" "centered" 1).
+// Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes
+// beside others that have none) one-sided; 0 where none does, and for all of a grid without extent in that
+// direction. RISpec 3.2 leaves the scheme open; this is PRMan's default ("derivatives" "centered" 1).
 #include "slvm/exec/run.h"
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 namespace slvm {
 namespace {
 
-/// How one lane takes its difference: value[hi] - value[lo], over this many steps of the grid. hi == lo: no neighbour.
+/// How one lane takes its difference: value[hi] - value[lo], over this many steps of the grid. hi == lo: no
+/// neighbour.
 struct Neighbours {
   size_t lo, hi;
 };
@@ -19,11 +20,11 @@ struct Neighbours {
 class Differences {
 public:
   Differences(const GridCall& call)
-      : grid_(*call.run.state.grid), valid_(call.run.mask.at_level(call.level)), everywhere_(call.level == 0) {}
+      : grid_(*call.run.state.grid), valid_(call.run.mask.at_level(call.level)),
+        everywhere_(call.level == 0) {}
 
   /// Calls store(lane, lo, hi) for every point. along_u: neighbours in the row, else in the column.
-  template <class F>
-  void for_each(bool along_u, F&& store) const {
+  template <class F> void for_each(bool along_u, F&& store) const {
     int nu = grid_.nu(), nv = grid_.nv();
     int n = along_u ? nu : nv;
     size_t stride = along_u ? 1 : static_cast<size_t>(nu);
@@ -62,7 +63,8 @@ struct StepSize {
 };
 
 void clear(const Operand& out, size_t components, size_t lanes) {
-  for (size_t c = 0; c < components; ++c) std::fill_n(out.plane(c), out.step ? lanes : kMaxLanes, 0.0f);
+  for (size_t c = 0; c < components; ++c)
+    std::fill_n(out.plane(c), out.step ? lanes : kMaxLanes, 0.0f);
 }
 
 /// Change of the operand's components per unit of u or v.
@@ -73,7 +75,8 @@ void derivative(const GridCall& call, bool along_u) {
   StepSize step(call.run, along_u);
   Differences(call).for_each(along_u, [&](size_t lane, size_t lo, size_t hi, size_t steps) {
     float scale = steps ? 1.0f / (static_cast<float>(steps) * step.at(lane)) : 0.0f;
-    for (size_t c = 0; c < count; ++c) out.plane(c)[lane] = steps ? (in.plane(c)[hi] - in.plane(c)[lo]) * scale : 0.0f;
+    for (size_t c = 0; c < count; ++c)
+      out.plane(c)[lane] = steps ? (in.plane(c)[hi] - in.plane(c)[lo]) * scale : 0.0f;
   });
 }
 
@@ -82,8 +85,10 @@ struct ElementEdges {
   std::vector<float> u[3], v[3];
 
   ElementEdges(const GridCall& call, const Operand& p) {
-    for (auto& plane : u) plane.assign(call.run.pitch, 0.0f);
-    for (auto& plane : v) plane.assign(call.run.pitch, 0.0f);
+    for (auto& plane : u)
+      plane.assign(call.run.pitch, 0.0f);
+    for (auto& plane : v)
+      plane.assign(call.run.pitch, 0.0f);
     if (!p.step) return;
     Differences differences(call);
     auto take = [&](std::vector<float>* out, bool along_u) {
@@ -107,11 +112,15 @@ struct ElementEdges {
 
 namespace grid_ops {
 
-void derivative_u(const GridCall& call) { derivative(call, true); }
-void derivative_v(const GridCall& call) { derivative(call, false); }
+void derivative_u(const GridCall& call) {
+  derivative(call, true);
+}
+void derivative_v(const GridCall& call) {
+  derivative(call, false);
+}
 
-// |Du(p) du ^ Dv(p) dv|: the parallelogram of one element. Strategy "dicing" measures the same edges here: the grid's
-// own; "shading" differs from it only for renderers that shade at other points than they dice.
+// |Du(p) du ^ Dv(p) dv|: the parallelogram of one element. Strategy "dicing" measures the same edges here:
+// the grid's own; "shading" differs from it only for renderers that shade at other points than they dice.
 void area(const GridCall& call) {
   const Operand& out = call.operands[0].planes;
   if (!out.step) return clear(out, 1, call.run.pitch);
@@ -134,7 +143,8 @@ void calculate_normal(const GridCall& call) {
     float n[3];
     edges.cross(i, n);
     float scale = sign / (du.at(i) * dv.at(i));
-    for (size_t c = 0; c < 3; ++c) out.plane(c)[i] = n[c] * scale;
+    for (size_t c = 0; c < 3; ++c)
+      out.plane(c)[i] = n[c] * scale;
   }
 }
 

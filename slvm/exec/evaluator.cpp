@@ -14,12 +14,14 @@ class KernelEvaluator : public ir::ConstantEvaluator {
 public:
   explicit KernelEvaluator(const KernelTable& table) : table_(table) {}
 
-  bool evaluate(ShadeopId id, std::span<const ir::Constant* const> args, std::vector<ir::Constant>& results) const override {
+  bool evaluate(ShadeopId id, std::span<const ir::Constant* const> args,
+                std::vector<ir::Constant>& results) const override {
     Kernel kernel = table_[id];
     Type type = shadeop(id).signature.result;
     if (!kernel || type == Type::kVoid) return false;
     size_t planes = static_cast<size_t>(components(type));
-    for (const ir::Constant* c : args) planes += static_cast<size_t>(components(c->type));
+    for (const ir::Constant* c : args)
+      planes += static_cast<size_t>(components(c->type));
     std::vector<float> memory((planes + 1) * kMaxLanes);
     auto misaligned = reinterpret_cast<uintptr_t>(memory.data()) / sizeof(float) % kMaxLanes;
     float* next = memory.data() + (misaligned ? kMaxLanes - misaligned : 0);
@@ -32,15 +34,19 @@ public:
     for (const ir::Constant* c : args) {
       float* planes_of = next;
       take(c->type);
-      if (c->type == Type::kString) std::fill_n(planes_of, kMaxLanes, std::bit_cast<float>(strings_.intern(c->text)));
-      for (size_t i = 0; i < c->numbers.size(); ++i) std::fill_n(planes_of + i * kMaxLanes, kMaxLanes, c->numbers[i]);
+      if (c->type == Type::kString)
+        std::fill_n(planes_of, kMaxLanes, std::bit_cast<float>(strings_.intern(c->text)));
+      for (size_t i = 0; i < c->numbers.size(); ++i)
+        std::fill_n(planes_of + i * kMaxLanes, kMaxLanes, c->numbers[i]);
     }
     KernelContext context{&strings_, 0, 0};
     kernel(operands.data(), static_cast<uint32_t>(operands.size()), kMaxLanes, context);
     ir::Constant result{type, {}, {}};
-    if (type == Type::kString) result.text = strings_.text(std::bit_cast<uint32_t>(operands[0].data[0]));
+    if (type == Type::kString)
+      result.text = strings_.text(std::bit_cast<uint32_t>(operands[0].data[0]));
     else
-      for (size_t i = 0; i < static_cast<size_t>(components(type)); ++i) result.numbers.push_back(operands[0].plane(i)[0]);
+      for (size_t i = 0; i < static_cast<size_t>(components(type)); ++i)
+        result.numbers.push_back(operands[0].plane(i)[0]);
     results.assign(1, std::move(result));
     return true;
   }

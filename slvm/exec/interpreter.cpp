@@ -1,5 +1,5 @@
-// The dispatch loop. Grid level and strip blocks run the same code; they differ in the frame (where operands are,
-// how many lanes) and in whose mask stack control flow works on.
+// The dispatch loop. Grid level and strip blocks run the same code; they differ in the frame (where operands
+// are, how many lanes) and in whose mask stack control flow works on.
 #include "slvm/exec/run.h"
 
 #include <algorithm>
@@ -38,9 +38,12 @@ void ShaderRun::copy_planes(const Frame& f, const MaskStack& m, std::span<const 
   size_t lanes = to.step ? f.lanes : kMaxLanes;
   for (uint32_t i = 0; i < w[0]; ++i) {
     float *d = to.plane(i), *s = from.plane(i);
-    if (masked && !m.all()) state.machine.kernels().blend(d, s, from.step, m.current(), f.lanes);
-    else if (from.step || !to.step) std::memcpy(d, s, lanes * sizeof(float));
-    else std::fill_n(d, lanes, *s);
+    if (masked && !m.all())
+      state.machine.kernels().blend(d, s, from.step, m.current(), f.lanes);
+    else if (from.step || !to.step)
+      std::memcpy(d, s, lanes * sizeof(float));
+    else
+      std::fill_n(d, lanes, *s);
   }
 }
 
@@ -49,7 +52,8 @@ void ShaderRun::first_active(const Frame& f, const MaskStack& m, std::span<const
   size_t lane = 0;
   for (size_t i = m.words(); i-- > 0;)
     if (m.current()[i]) lane = i * kMaskWordLanes + static_cast<size_t>(std::countr_zero(m.current()[i]));
-  for (uint32_t i = 0; i < w[0]; ++i) std::fill_n(to.plane(i), kMaxLanes, from.plane(i)[from.step ? lane : 0]);
+  for (uint32_t i = 0; i < w[0]; ++i)
+    std::fill_n(to.plane(i), kMaxLanes, from.plane(i)[from.step ? lane : 0]);
 }
 
 namespace {
@@ -62,7 +66,8 @@ int64_t element_index(float subscript, uint32_t elements) {
 
 std::string subscript_error(float subscript, uint32_t elements) {
   char text[96];
-  std::snprintf(text, sizeof text, "array subscript %g is outside 0..%u", static_cast<double>(subscript), elements - 1);
+  std::snprintf(text, sizeof text, "array subscript %g is outside 0..%u", static_cast<double>(subscript),
+                elements - 1);
   return text;
 }
 
@@ -80,8 +85,11 @@ void ShaderRun::array_load(const Frame& f, const MaskStack& m, uint32_t pc, std:
       to.plane(i)[lane] = e < 0 ? 0 : array.plane(static_cast<size_t>(e) * planes + i)[array.step * lane];
   }
   if (!to.step)
-    for (size_t i = 0; i < planes; ++i) std::fill_n(to.plane(i), kMaxLanes, to.plane(i)[0]);
-  if (bad) report(pc, MessageSeverity::kError, subscript_error(subscript.data[subscript.step * bad_lane], array.elements), bad);
+    for (size_t i = 0; i < planes; ++i)
+      std::fill_n(to.plane(i), kMaxLanes, to.plane(i)[0]);
+  if (bad)
+    report(pc, MessageSeverity::kError,
+           subscript_error(subscript.data[subscript.step * bad_lane], array.elements), bad);
 }
 
 void ShaderRun::array_store(const Frame& f, const MaskStack& m, uint32_t pc, std::span<const uint32_t> w) {
@@ -98,19 +106,25 @@ void ShaderRun::array_store(const Frame& f, const MaskStack& m, uint32_t pc, std
     for (size_t i = 0; i < planes; ++i) {
       float* element = array.plane(static_cast<size_t>(e) * planes + i);
       float value = from.plane(i)[from.step * lane];
-      if (array.step) element[lane] = value;
-      else std::fill_n(element, kMaxLanes, value);
+      if (array.step)
+        element[lane] = value;
+      else
+        std::fill_n(element, kMaxLanes, value);
     }
   }
-  if (bad) report(pc, MessageSeverity::kError, subscript_error(subscript.data[subscript.step * bad_lane], array.elements), bad);
+  if (bad)
+    report(pc, MessageSeverity::kError,
+           subscript_error(subscript.data[subscript.step * bad_lane], array.elements), bad);
 }
 
 void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<const uint32_t> words) {
   const Instance::Bound::Import& target = bound.imports[import];
   if (target.kernel) {
-    for (size_t i = 0; i < words.size(); ++i) operands_[i] = operand(f, words[i]);
+    for (size_t i = 0; i < words.size(); ++i)
+      operands_[i] = operand(f, words[i]);
     KernelContext context{&state.machine.strings(), state.grid->id, static_cast<uint32_t>(f.first)};
-    target.kernel(operands_.data(), static_cast<uint32_t>(words.size()), operands_[0].step ? f.lanes : kMaxLanes, context);
+    target.kernel(operands_.data(), static_cast<uint32_t>(words.size()),
+                  operands_[0].step ? f.lanes : kMaxLanes, context);
     return;
   }
   const ShadeopInfo& info = shadeop(program.imports[import]);
@@ -161,7 +175,8 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       Operand array = operand(f, w[0]);
       const ArrayInfo& info = program.arrays[operand_index(w[0])];
       size_t planes = array.elements * static_cast<size_t>(components(info.type));
-      for (size_t i = 0; i < planes; ++i) std::fill_n(array.plane(i), array.step ? f.lanes : kMaxLanes, 0.0f);
+      for (size_t i = 0; i < planes; ++i)
+        std::fill_n(array.plane(i), array.step ? f.lanes : kMaxLanes, 0.0f);
       break;
     }
     case Opcode::k_aload: array_load(f, m, at, {w, count}); break;
@@ -188,8 +203,10 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
     case Opcode::k_loop:
     case Opcode::k_block: m.push_loop(); break;
     case Opcode::k_endloop:
-      if (m.next_round()) pc = w[0];
-      else if (!m.any()) pc = w[1];
+      if (m.next_round())
+        pc = w[0];
+      else if (!m.any())
+        pc = w[1];
       break;
     case Opcode::k_endblock:
       m.pop_loop();
@@ -212,8 +229,8 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       Operand axis = operand(f, w[4]), angle = operand(f, w[5]);
       auto category = std::bit_cast<uint32_t>(*operand(f, w[2]).data);
       m.push_loop();
-      light_loop.begin(*this, state.machine.strings().text(category), operand(f, w[3]), w[1] ? &axis : nullptr,
-                       w[1] ? &angle : nullptr);
+      light_loop.begin(*this, state.machine.strings().text(category), operand(f, w[3]),
+                       w[1] ? &axis : nullptr, w[1] ? &angle : nullptr);
       pc = next_light(m, pc, w[0]);
       break;
     }
@@ -248,8 +265,8 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
   }
 }
 
-// Goes to the next light that reaches a lane still in the loop, at `body`; after the last one past the endilluminance
-// at `end`, or to where that says when no lane is left.
+// Goes to the next light that reaches a lane still in the loop, at `body`; after the last one past the
+// endilluminance at `end`, or to where that says when no lane is left.
 uint32_t ShaderRun::next_light(MaskStack& m, uint32_t body, uint32_t end) {
   if (light_loop.next(*this, m.in_loop())) {
     m.enter_round(light_loop.lanes());

@@ -17,13 +17,16 @@ namespace {
 // A uniform triple of zeros. Kernels only read it.
 alignas(kPlaneAlign) constexpr float kNothing[3 * kMaxLanes] = {};
 
-size_t operand_floats(const Operand& o, size_t pitch) { return 3 * (o.step ? pitch : 1); }
+size_t operand_floats(const Operand& o, size_t pitch) {
+  return 3 * (o.step ? pitch : 1);
+}
 
 // Points and normals as plain numbers, to see whether they are the same another time.
 void save(const Operand& o, size_t pitch, std::vector<float>& out) {
   out.resize(operand_floats(o, pitch));
   size_t lanes = out.size() / 3;
-  for (size_t i = 0; i < 3; ++i) std::memcpy(out.data() + i * lanes, o.plane(i), lanes * sizeof(float));
+  for (size_t i = 0; i < 3; ++i)
+    std::memcpy(out.data() + i * lanes, o.plane(i), lanes * sizeof(float));
 }
 
 bool same(const Operand& o, size_t pitch, const std::vector<float>& saved) {
@@ -36,19 +39,22 @@ bool same(const Operand& o, size_t pitch, const std::vector<float>& saved) {
 
 } // namespace
 
-LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance& light, const Operand& position,
-                           const Operand& normal) {
+LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance& light,
+                           const Operand& position, const Operand& normal) {
   size_t pitch = state.grid->pitch();
   const Instance::Bound& bound = light.bound();
   bool uses_normal = bound.slot_of[static_cast<size_t>(Global::kNs)] >= 0;
   if (!bound.reads_messages)
     for (size_t i = 0; i < used_; ++i) {
       LitGrid& g = *grids_[i];
-      if (g.light_id == light.id() && same(position, pitch, g.position) && (!uses_normal || same(normal, pitch, g.normal))) return g;
+      if (g.light_id == light.id() && same(position, pitch, g.position) &&
+          (!uses_normal || same(normal, pitch, g.normal)))
+        return g;
     }
   // A place whose run was of this light keeps its registers.
   size_t place = used_;
-  while (place < grids_.size() && grids_[place]->light_id != light.id()) ++place;
+  while (place < grids_.size() && grids_[place]->light_id != light.id())
+    ++place;
   if (place == grids_.size()) grids_.push_back(std::make_unique<LitGrid>());
   std::swap(grids_[used_], grids_[place]);
   LitGrid& g = *grids_[used_++];
@@ -82,21 +88,26 @@ void LightLoop::begin(ShaderRun& run, std::string_view category, const Operand& 
   for (const Instance* light : run.state.services.lights(run.shading_state())) {
     if (!light->bound().emits || !category_matches(category, light->categories())) continue;
     LitGrid& lit = run.state.lights.light(run.state, run, *light, position, normal);
-    for (size_t i = 0; i < lit.run->emission_count; ++i) rounds_.emplace_back(&lit, &lit.run->emissions[i]);
+    for (size_t i = 0; i < lit.run->emission_count; ++i)
+      rounds_.emplace_back(&lit, &lit.run->emissions[i]);
   }
 }
 
 // "" all; "a" lights in category a; "-a" lights that are not; "a,b" lights in any of them.
 bool LightLoop::category_matches(std::string_view wanted, std::span<const std::string> categories) {
   if (wanted.empty()) return true;
-  auto has = [&](std::string_view name) { return std::find(categories.begin(), categories.end(), name) != categories.end(); };
+  auto has = [&](std::string_view name) {
+    return std::find(categories.begin(), categories.end(), name) != categories.end();
+  };
   bool any = false;
   while (!wanted.empty()) {
     size_t comma = wanted.find(',');
     std::string_view name = wanted.substr(0, comma);
     wanted = comma == wanted.npos ? std::string_view() : wanted.substr(comma + 1);
-    while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
-    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
+    while (!name.empty() && name.front() == ' ')
+      name.remove_prefix(1);
+    while (!name.empty() && name.back() == ' ')
+      name.remove_suffix(1);
     any |= name.starts_with('-') ? !has(name.substr(1)) : has(name);
   }
   return any;
@@ -104,7 +115,9 @@ bool LightLoop::category_matches(std::string_view wanted, std::span<const std::s
 
 namespace {
 
-Operand as_operand(const Planes& p) { return {p.data, p.pitch, p.step, 1}; }
+Operand as_operand(const Planes& p) {
+  return {p.data, p.pitch, p.step, 1};
+}
 
 void call(Kernel kernel, const Operand& out, std::initializer_list<Operand> in, size_t lanes) {
   Operand operands[4] = {out};
@@ -119,13 +132,15 @@ float cosine_of(float angle) {
 }
 
 /// Lanes where the angle between axis and direction is at most `angle`.
-void cone_lanes(ShaderRun& run, const Operand& axis, const Operand& direction, const Operand& angle, PlaneMemory& memory,
-                std::vector<MaskWord>& lanes) {
+void cone_lanes(ShaderRun& run, const Operand& axis, const Operand& direction, const Operand& angle,
+                PlaneMemory& memory, std::vector<MaskWord>& lanes) {
   size_t pitch = run.pitch;
   float* inside = memory.reserve(2 * pitch);
   Operand cosine{inside + pitch, pitch, angle.step, 1};
-  if (angle.step) std::transform(angle.data, angle.data + run.points, cosine.data, cosine_of);
-  else std::fill_n(cosine.data, kMaxLanes, cosine_of(*angle.data));
+  if (angle.step)
+    std::transform(angle.data, angle.data + run.points, cosine.data, cosine_of);
+  else
+    std::fill_n(cosine.data, kMaxLanes, cosine_of(*angle.data));
   call(run.state.light_kernels.in_cone, {inside, pitch, 1, 1}, {axis, direction, cosine}, pitch);
   lanes.resize(mask_words(pitch));
   run.state.machine.kernels().mask_of_bools(lanes.data(), inside, pitch);
@@ -158,7 +173,8 @@ bool LightLoop::next(ShaderRun& run, const MaskWord* in_loop) {
       lanes_ = emission->lit;
     }
     MaskWord some = 0;
-    for (size_t i = 0; i < lanes_.size(); ++i) some |= lanes_[i] & in_loop[i];
+    for (size_t i = 0; i < lanes_.size(); ++i)
+      some |= lanes_[i] & in_loop[i];
     if (!some) continue;
     ++at_;
     current_ = lit;
@@ -201,7 +217,8 @@ void end_emission(ShaderRun& run, const std::vector<MaskWord>& lit) {
     if (!own) return Planes{const_cast<float*>(kNothing), kMaxLanes, 0, Type::kColor, 0};
     if (stays) return *own;
     memory += 3 * pitch;
-    for (size_t c = 0; c < 3; ++c) std::memcpy(memory + c * pitch, own->data + c * own->pitch, pitch * sizeof(float));
+    for (size_t c = 0; c < 3; ++c)
+      std::memcpy(memory + c * pitch, own->data + c * own->pitch, pitch * sizeof(float));
     return Planes{memory, pitch, 1, own->type, 0};
   };
   e.to_light = {memory, pitch, 1, Type::kVector, 0};
@@ -231,7 +248,8 @@ namespace grid_ops {
 void ambient(const GridCall& call) {
   ShaderRun& run = call.run;
   const Operand& out = call.operands[0].planes;
-  for (size_t c = 0; c < 3; ++c) std::fill_n(out.plane(c), run.pitch, 0.0f);
+  for (size_t c = 0; c < 3; ++c)
+    std::fill_n(out.plane(c), run.pitch, 0.0f);
   const Planes& p = run.state.grid->variable(Global::kP);
   const Planes& n = run.state.grid->variable(Global::kN);
   Operand origin{const_cast<float*>(kNothing), kMaxLanes, 0, 1};
@@ -242,8 +260,12 @@ void ambient(const GridCall& call) {
     for (size_t c = 0; c < 3; ++c) {
       const float* from = e.colour.data + c * e.colour.pitch;
       float* to = out.plane(c);
-      if (e.colour.step) for (size_t i = 0; i < run.pitch; ++i) to[i] += from[i];
-      else for (size_t i = 0; i < run.pitch; ++i) to[i] += *from;
+      if (e.colour.step)
+        for (size_t i = 0; i < run.pitch; ++i)
+          to[i] += from[i];
+      else
+        for (size_t i = 0; i < run.pitch; ++i)
+          to[i] += *from;
     }
   }
 }

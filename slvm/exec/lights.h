@@ -5,9 +5,9 @@
 #include "slvm/wide/mask.h"
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
-#include <span>
 #include <vector>
 
 namespace slvm {
@@ -31,7 +31,7 @@ struct LightKernels {
 
 /// One light's results for one set of points.
 struct LitGrid {
-  std::unique_ptr<ShaderRun> run; ///< kept for lightsource()
+  std::unique_ptr<ShaderRun> run;      ///< kept for lightsource()
   std::vector<float> position, normal; ///< the points and normals it ran for
   const Instance* light = nullptr;
   uint64_t light_id = 0;
@@ -58,7 +58,8 @@ public:
   /// Finds the lights and runs them.
   void begin(ShaderRun& run, std::string_view category, const Operand& position, const Operand* axis,
              const Operand* angle);
-  /// Makes the next emission that reaches lanes of `in_loop` the current one: binds L, Cl and Ol. False: none left.
+  /// Makes the next emission that reaches lanes of `in_loop` the current one: binds L, Cl and Ol. False: none
+  /// left.
   bool next(ShaderRun& run, const MaskWord* in_loop);
   const MaskWord* lanes() const { return lanes_.data(); }
   /// The light of this round, for lightsource(); null outside a loop.
@@ -84,8 +85,8 @@ void begin_illuminate(ShaderRun& run, const Operand& from, const Operand* axis, 
 void begin_solar(ShaderRun& run, const Operand* axis, const Operand* angle, std::vector<MaskWord>& lit);
 /// Records what the block gave in the lanes that entered it.
 void end_emission(ShaderRun& run, const std::vector<MaskWord>& lit);
-/// At the end of a light: an ambient one's emission is what it set; a lone block's colour is the one at the end, for
-/// lights that finish it after their block.
+/// At the end of a light: an ambient one's emission is what it set; a lone block's colour is the one at the
+/// end, for lights that finish it after their block.
 void end_light(ShaderRun& run);
 
 } // namespace slvm

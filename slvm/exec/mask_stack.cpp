@@ -79,7 +79,8 @@ void MaskStack::lanes_where(const MaskWord* condition) {
   update();
 }
 
-// The current lanes go: out of everything up to the target loop, and out of that loop's rounds unless they continue.
+// The current lanes go: out of everything up to the target loop, and out of that loop's rounds unless they
+// continue.
 void MaskStack::leave(uint32_t loops, bool keep_in_target) {
   for (size_t e = entries_.size(); e-- > 0;) {
     bool target = entries_[e].loop && --loops == 0;
@@ -94,12 +95,17 @@ void MaskStack::leave(uint32_t loops, bool keep_in_target) {
   update();
 }
 
-void MaskStack::lanes_break(uint32_t loops) { leave(loops, false); }
-void MaskStack::lanes_continue(uint32_t loops) { leave(loops, true); }
+void MaskStack::lanes_break(uint32_t loops) {
+  leave(loops, false);
+}
+void MaskStack::lanes_continue(uint32_t loops) {
+  leave(loops, true);
+}
 
 void MaskStack::enter_round(const MaskWord* lanes) {
   const MaskWord* in_loop = iter(entries_.size() - 1);
-  for (size_t i = 0; i < words_; ++i) current_[i] = in_loop[i] & lanes[i];
+  for (size_t i = 0; i < words_; ++i)
+    current_[i] = in_loop[i] & lanes[i];
   update();
 }
 
@@ -112,6 +118,8 @@ bool MaskStack::next_round() {
   return false;
 }
 
-void MaskStack::pop_loop() { pop_if(); }
+void MaskStack::pop_loop() {
+  pop_if();
+}
 
 } // namespace slvm

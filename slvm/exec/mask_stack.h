@@ -10,8 +10,8 @@
 //   } else {            flip_else      current = other
 //   }                   pop_if         current = saved, less lanes that broke out of loops around
 //
-// A lane that leaves by break, continue or return is taken out of everything that would bring it back too early, at
-// once; nothing has to be remembered about it. Strips and whole grids use the same class.
+// A lane that leaves by break, continue or return is taken out of everything that would bring it back too
+// early, at once; nothing has to be remembered about it. Strips and whole grids use the same class.
 #pragma once
 
 #include "slvm/wide/mask.h"
@@ -27,7 +27,8 @@ public:
     words_ = mask_words(lanes);
     full_.resize(words_);
     current_.resize(words_);
-    for (size_t i = 0; i < words_; ++i) full_[i] = full_mask_word(i, active);
+    for (size_t i = 0; i < words_; ++i)
+      full_[i] = full_mask_word(i, active);
     current_ = full_;
     entries_.clear();
     storage_.clear();

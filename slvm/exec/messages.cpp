@@ -9,7 +9,8 @@
 namespace slvm {
 namespace {
 
-// Operands of all of these: result, value stored, name, value before. With an array: the array itself is both.
+// Operands of all of these: result, value stored, name, value before. With an array: the array itself is
+// both.
 struct Query {
   explicit Query(const GridCall& call)
       : run(call.run), found(call.operands[0].planes), out(call.operands[1]), before(call.operands[3]),
@@ -24,8 +25,10 @@ struct Query {
     const Operand& to = out.planes;
     size_t lanes = to.step ? run.pitch : kMaxLanes;
     for (size_t i = 0; i < planes(); ++i) {
-      if (from.step && to.step) std::memmove(to.plane(i), from.plane(i), lanes * sizeof(float));
-      else std::fill_n(to.plane(i), lanes, *from.plane(i));
+      if (from.step && to.step)
+        std::memmove(to.plane(i), from.plane(i), lanes * sizeof(float));
+      else
+        std::fill_n(to.plane(i), lanes, *from.plane(i));
     }
   }
   /// Where nothing is found the variable keeps its value.
@@ -59,8 +62,8 @@ void query(const GridCall& call, Source source) {
   uint32_t elements = q.out.array ? q.out.planes.elements : 0;
   if (known && (value.type != q.out.type || value.elements != elements)) {
     q.run.report(call.code, MessageSeverity::kError,
-                 fmt::format("{} \"{}\" is a {}, not a {}", call.info.name, q.name, describe(value.type, value.elements),
-                             describe(q.out.type, elements)),
+                 fmt::format("{} \"{}\" is a {}, not a {}", call.info.name, q.name,
+                             describe(value.type, value.elements), describe(q.out.type, elements)),
                  q.run.points);
     known = false;
   }
@@ -86,20 +89,34 @@ void surface_message(const GridCall& call) {
   const GridState& state = call.run.state;
   message(call, call.run.outer ? call.run.outer : state.surface);
 }
-void displacement_message(const GridCall& call) { message(call, call.run.state.displacement); }
-void atmosphere_message(const GridCall& call) { message(call, call.run.state.atmosphere); }
-// Volumes inside and outside are entered by rays, which this renderer interface does not have yet: nothing is found,
-// as at a surface without interior or exterior shader.
-void incident_message(const GridCall& call) { message(call, nullptr); }
-void opposite_message(const GridCall& call) { message(call, nullptr); }
+void displacement_message(const GridCall& call) {
+  message(call, call.run.state.displacement);
+}
+void atmosphere_message(const GridCall& call) {
+  message(call, call.run.state.atmosphere);
+}
+// Volumes inside and outside are entered by rays, which this renderer interface does not have yet: nothing is
+// found, as at a surface without interior or exterior shader.
+void incident_message(const GridCall& call) {
+  message(call, nullptr);
+}
+void opposite_message(const GridCall& call) {
+  message(call, nullptr);
+}
 void lightsource_message(const GridCall& call) {
   const LitGrid* light = call.run.light_loop.current();
   message(call, light ? light->run.get() : nullptr);
 }
 
-void attribute_query(const GridCall& call) { query(call, &RendererServices::attribute); }
-void option_query(const GridCall& call) { query(call, &RendererServices::option); }
-void renderer_query(const GridCall& call) { query(call, &RendererServices::renderer_info); }
+void attribute_query(const GridCall& call) {
+  query(call, &RendererServices::attribute);
+}
+void option_query(const GridCall& call) {
+  query(call, &RendererServices::option);
+}
+void renderer_query(const GridCall& call) {
+  query(call, &RendererServices::renderer_info);
+}
 
 void shader_name(const GridCall& call) {
   const ShaderSet& set = *call.run.state.shaders;
@@ -107,10 +124,13 @@ void shader_name(const GridCall& call) {
   StringPool& strings = call.run.state.machine.strings();
   if (call.operands.size() > 1) {
     std::string_view kind = strings.text(std::bit_cast<uint32_t>(*call.operands[1].planes.data));
-    shader = kind == "surface" ? set.surface : kind == "displacement" ? set.displacement
-           : kind == "atmosphere" ? set.atmosphere : kind == "interior" ? set.interior
-           : kind == "exterior" ? set.exterior
-           : kind == "lightsource" && call.run.light_loop.current() ? call.run.light_loop.current()->light : nullptr;
+    shader = kind == "surface"                                        ? set.surface
+             : kind == "displacement"                                 ? set.displacement
+             : kind == "atmosphere"                                   ? set.atmosphere
+             : kind == "interior"                                     ? set.interior
+             : kind == "exterior"                                     ? set.exterior
+             : kind == "lightsource" && call.run.light_loop.current() ? call.run.light_loop.current()->light
+                                                                      : nullptr;
   }
   uint32_t id = strings.intern(shader ? shader->shader().name() : "");
   std::fill_n(call.operands[0].planes.data, kMaxLanes, std::bit_cast<float>(id));

@@ -1,5 +1,6 @@
-// printf and format: %f %e %g float, %d %i float as an integer, %p %v %n triple, %c color, %m matrix, %s string, %%.
-// Width and precision hold for each number. Triples and matrices print as numbers separated by spaces.
+// printf and format: %f %e %g float, %d %i float as an integer, %p %v %n triple, %c color, %m matrix, %s
+// string, %%. Width and precision hold for each number. Triples and matrices print as numbers separated by
+// spaces.
 #include "slvm/exec/run.h"
 
 #include <bit>
@@ -28,7 +29,9 @@ std::vector<Piece> split(std::string_view pattern) {
       continue;
     }
     size_t end = i + 1;
-    while (end < pattern.size() && (std::isdigit(static_cast<unsigned char>(pattern[end])) || std::string_view("-+ .#").find(pattern[end]) != std::string_view::npos)) ++end;
+    while (end < pattern.size() && (std::isdigit(static_cast<unsigned char>(pattern[end])) ||
+                                    std::string_view("-+ .#").find(pattern[end]) != std::string_view::npos))
+      ++end;
     if (end == pattern.size()) {
       pieces.back().text += pattern.substr(i);
       break;
@@ -53,8 +56,10 @@ std::string numeric_format(const std::string& spec, char letter) {
       continue;
     }
     size_t end = i;
-    while (end < spec.size() && std::isdigit(static_cast<unsigned char>(spec[end]))) ++end;
-    out += end - i > 4 ? std::to_string(kWidest) : std::to_string(std::min(std::atoi(spec.substr(i, end - i).c_str()), kWidest));
+    while (end < spec.size() && std::isdigit(static_cast<unsigned char>(spec[end])))
+      ++end;
+    out += end - i > 4 ? std::to_string(kWidest)
+                       : std::to_string(std::min(std::atoi(spec.substr(i, end - i).c_str()), kWidest));
     i = end;
   }
   return out + letter;
@@ -104,19 +109,24 @@ public:
     std::string out;
     size_t next = first_ + 1;
     for (const Piece& piece : pieces_) {
-      if (!piece.conversion) out += piece.text;
-      else if (next >= call_.operands.size()) out += complain(piece, "has no value");
-      else out += convert(piece, call_.operands[next++], lane);
+      if (!piece.conversion)
+        out += piece.text;
+      else if (next >= call_.operands.size())
+        out += complain(piece, "has no value");
+      else
+        out += convert(piece, call_.operands[next++], lane);
     }
     return out;
   }
 
 private:
   std::string convert(const Piece& piece, const GridOperand& o, size_t lane) {
-    if (!fits(piece.conversion, o.type)) return complain(piece, fmt::format("does not fit a {}", type_name(o.type)));
+    if (!fits(piece.conversion, o.type))
+      return complain(piece, fmt::format("does not fit a {}", type_name(o.type)));
     size_t at = o.planes.step ? lane : 0;
     if (o.type == Type::kString)
-      return fmt::sprintf(numeric_format(piece.text, 's'), std::string(strings_.text(std::bit_cast<uint32_t>(o.planes.data[at]))));
+      return fmt::sprintf(numeric_format(piece.text, 's'),
+                          std::string(strings_.text(std::bit_cast<uint32_t>(o.planes.data[at]))));
     std::string out;
     for (size_t c = 0; c < static_cast<size_t>(components(o.type)); ++c) {
       if (c) out += ' ';
@@ -127,7 +137,8 @@ private:
 
   std::string complain(const Piece& piece, std::string_view what) {
     if (!complained_)
-      call_.run.report(call_.code, MessageSeverity::kError, fmt::format("{}: {}{} {}", call_.info.name, piece.text, piece.conversion, what), 1);
+      call_.run.report(call_.code, MessageSeverity::kError,
+                       fmt::format("{}: {}{} {}", call_.info.name, piece.text, piece.conversion, what), 1);
     complained_ = true;
     return piece.text + piece.conversion;
   }
@@ -146,8 +157,11 @@ namespace grid_ops {
 void print(const GridCall& call) {
   Formatter formatter(call);
   std::string text;
-  if (!formatter.varying()) text = formatter.text(0);
-  else mask_for_each(call.run.mask.current(), call.run.points, [&](size_t lane) { text += formatter.text(lane); });
+  if (!formatter.varying())
+    text = formatter.text(0);
+  else
+    mask_for_each(call.run.mask.current(), call.run.points,
+                  [&](size_t lane) { text += formatter.text(lane); });
   if (!text.empty()) call.run.state.services.print(call.run.shading_state(), text);
 }
 

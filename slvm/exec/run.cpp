@@ -19,8 +19,9 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal) {
   bind_registers();
   slots.resize(program.slots.size());
   for (size_t i = 0; i < slots.size(); ++i)
-    slots[i] = program.slots[i].parameter ? bind_parameter(i)
-                                          : bind_variable(bound.globals[i], program.slots[i].stored, position, normal);
+    slots[i] = program.slots[i].parameter
+                   ? bind_parameter(i)
+                   : bind_variable(bound.globals[i], program.slots[i].stored, position, normal);
   mask.reset(pitch, points);
 }
 
@@ -36,7 +37,8 @@ void ShaderRun::bind_registers() {
   size_t uniform = program.uniform_planes * kMaxLanes, strips = program.strip_planes * strip;
   size_t total = uniform + strips + program.grid_planes * pitch;
   float* memory = memory_.reserve(std::max<size_t>(total, 1));
-  if (state.machine.options().poison_registers) std::fill_n(memory, total, std::numeric_limits<float>::signaling_NaN());
+  if (state.machine.options().poison_registers)
+    std::fill_n(memory, total, std::numeric_limits<float>::signaling_NaN());
   frame_ = {{bound.constants.data(), memory, memory + uniform, memory + uniform + strips},
             {kMaxLanes, kMaxLanes, strip, pitch},
             {0, 0, 1, 1},
@@ -54,7 +56,8 @@ float* ShaderRun::take(size_t floats) {
 Planes ShaderRun::take_uniform(Type type, std::initializer_list<float> value) {
   float* data = take(value.size() * kMaxLanes);
   size_t i = 0;
-  for (float x : value) std::fill_n(data + i++ * kMaxLanes, kMaxLanes, x);
+  for (float x : value)
+    std::fill_n(data + i++ * kMaxLanes, kMaxLanes, x);
   return {data, kMaxLanes, 0, type, 0};
 }
 
@@ -65,9 +68,12 @@ Planes ShaderRun::take_copy(const Slot& slot, const Planes& from) {
   Planes to{take(planes * lanes), lanes, slot.varying ? 1u : 0u, slot.type, slot.elements};
   for (size_t i = 0; i < planes; ++i) {
     float* plane = to.data + i * lanes;
-    if (!from.data) std::fill_n(plane, lanes, 0.0f);
-    else if (from.step && slot.varying) std::memcpy(plane, from.data + i * from.pitch, lanes * sizeof(float));
-    else std::fill_n(plane, lanes, from.data[i * from.pitch]);
+    if (!from.data)
+      std::fill_n(plane, lanes, 0.0f);
+    else if (from.step && slot.varying)
+      std::memcpy(plane, from.data + i * from.pitch, lanes * sizeof(float));
+    else
+      std::fill_n(plane, lanes, from.data[i * from.pitch]);
   }
   return to;
 }
@@ -120,7 +126,8 @@ Planes ShaderRun::lattice(Global g) {
   if (g == Global::kdu || g == Global::kdv) return take_uniform(Type::kFloat, {step});
   float* data = take(pitch);
   for (int iv = 0, i = 0; iv < grid.nv(); ++iv)
-    for (int iu = 0; iu < grid.nu(); ++iu, ++i) data[i] = static_cast<float>(along_u ? iu : iv) * (n > 1 ? step : 0);
+    for (int iu = 0; iu < grid.nu(); ++iu, ++i)
+      data[i] = static_cast<float>(along_u ? iu : iv) * (n > 1 ? step : 0);
   std::fill(data + points, data + pitch, 0.0f);
   return {data, pitch, 1, Type::kFloat, 0};
 }

@@ -1,5 +1,5 @@
-// One shader instance running on one grid: its registers, its external variables, its masks. Lights run inside the
-// run of the surface they light, each as a run of its own. Read next: interpreter.cpp.
+// One shader instance running on one grid: its registers, its external variables, its masks. Lights run
+// inside the run of the surface they light, each as a run of its own. Read next: interpreter.cpp.
 #pragma once
 
 #include "slvm/exec/bound.h"
@@ -26,11 +26,11 @@ struct GridState {
 
 /// Where operands are, for the lanes being run: a strip, or the whole grid.
 struct Frame {
-  float* data[4];   ///< constants, uniform, strip and grid registers (of the first lane)
+  float* data[4]; ///< constants, uniform, strip and grid registers (of the first lane)
   size_t pitch[4];
   uint32_t step[4];
-  size_t first = 0; ///< grid index of the first lane
-  size_t lanes = 0; ///< a multiple of kMaxLanes
+  size_t first = 0;  ///< grid index of the first lane
+  size_t lanes = 0;  ///< a multiple of kMaxLanes
   size_t active = 0; ///< lanes that are points; the rest is padding
 };
 
@@ -39,8 +39,8 @@ public:
   /// `outer`: the run whose light loop this light runs for, or null.
   ShaderRun(GridState& state, const Instance& instance, const ShaderRun* outer = nullptr);
 
-  /// Takes memory for the grid of `state` and binds external variables; may be called again for the next grid.
-  /// `position` and `normal`: Ps and Ns of lights.
+  /// Takes memory for the grid of `state` and binds external variables; may be called again for the next
+  /// grid. `position` and `normal`: Ps and Ns of lights.
   void prepare(const Operand* position = nullptr, const Operand* normal = nullptr);
   /// Computes defaults of parameters, then runs the shader.
   void execute();
@@ -55,7 +55,8 @@ public:
   std::vector<Planes> slots; ///< by slot of the program
   MaskStack mask;            ///< of the whole grid
   LightLoop light_loop;      ///< the light loop being run (surfaces)
-  std::vector<Emission> emissions; ///< what illuminate and solar gave so far (lights): the first emission_count
+  std::vector<Emission>
+      emissions; ///< what illuminate and solar gave so far (lights): the first emission_count
   size_t emission_count = 0;
   PlaneMemory cone_memory; ///< scratch of illuminate
 

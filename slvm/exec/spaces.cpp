@@ -11,8 +11,10 @@ namespace {
 // `forward`: space to current; else current to space.
 bool named_space(const ShaderRun& run, std::string_view space, bool forward, Matrix4& m) {
   auto known = [&](const Matrix4& to_current) {
-    if (forward) m = to_current;
-    else invert(to_current, m); // singular: all zeros
+    if (forward)
+      m = to_current;
+    else
+      invert(to_current, m); // singular: all zeros
     return true;
   };
   if (space == "current" || space.empty()) return known(Matrix4{});
@@ -27,16 +29,18 @@ std::string_view text_of(const GridCall& call, size_t operand) {
   return call.run.state.machine.strings().text(std::bit_cast<uint32_t>(*call.operands[operand].planes.data));
 }
 
-// The matrix from the space named by operand 1 to that named by operand 2. An unknown space counts as "current".
+// The matrix from the space named by operand 1 to that named by operand 2. An unknown space counts as
+// "current".
 Matrix4 matrix_between(const GridCall& call) {
   Matrix4 total;
   for (size_t i : {1u, 2u}) {
     std::string_view name = text_of(call, i);
     Matrix4 m;
-    if (named_space(call.run, name, i == 1, m)) total = total * m;
+    if (named_space(call.run, name, i == 1, m))
+      total = total * m;
     else
-      call.run.report(call.code, MessageSeverity::kError, fmt::format("unknown coordinate system \"{}\"", name),
-                      call.run.points);
+      call.run.report(call.code, MessageSeverity::kError,
+                      fmt::format("unknown coordinate system \"{}\"", name), call.run.points);
   }
   return total;
 }
@@ -47,7 +51,8 @@ namespace grid_ops {
 
 void space_matrix(const GridCall& call) {
   Matrix4 m = matrix_between(call);
-  for (size_t i = 0; i < 16; ++i) std::fill_n(call.operands[0].planes.plane(i), kMaxLanes, m.m[i]);
+  for (size_t i = 0; i < 16; ++i)
+    std::fill_n(call.operands[0].planes.plane(i), kMaxLanes, m.m[i]);
 }
 
 // The image of v at P, for spaces with perspective: image of P + v less image of P.
@@ -59,14 +64,18 @@ void project_vector(const GridCall& call) {
   size_t points = out.step ? call.run.points : 1;
   for (size_t i = 0; i < points; ++i) {
     std::array<float, 3> at{}, tip;
-    for (size_t c = 0; c < 3; ++c) at[c] = p.data ? p.get(c, i) : 0.0f;
+    for (size_t c = 0; c < 3; ++c)
+      at[c] = p.data ? p.get(c, i) : 0.0f;
     at = transform_point(to_from, at);
-    for (size_t c = 0; c < 3; ++c) tip[c] = at[c] + v.plane(c)[v.step * i];
+    for (size_t c = 0; c < 3; ++c)
+      tip[c] = at[c] + v.plane(c)[v.step * i];
     at = transform_point(m, at);
     tip = transform_point(m, tip);
     for (size_t c = 0; c < 3; ++c) {
-      if (out.step) out.plane(c)[i] = tip[c] - at[c];
-      else std::fill_n(out.plane(c), kMaxLanes, tip[c] - at[c]);
+      if (out.step)
+        out.plane(c)[i] = tip[c] - at[c];
+      else
+        std::fill_n(out.plane(c), kMaxLanes, tip[c] - at[c]);
     }
   }
 }

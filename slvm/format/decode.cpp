@@ -39,7 +39,8 @@ public:
       } while (p.variadic && !words_.empty());
     }
     while (!s.token_set.empty() && !words_.empty())
-      if (!take({0, Type::kString, false, false, true}, false) || !take({0, Type::kFloat, false, false, false}, true))
+      if (!take({0, Type::kString, false, false, true}, false) ||
+          !take({0, Type::kFloat, false, false, false}, true))
         return false;
     return words_.empty();
   }

@@ -17,12 +17,16 @@ struct CallOperand {
   bool uniform = false; ///< must be uniform
 };
 
-/// Splits the operand words of a call: stored operands first, then read ones. `level`: the last word of shadeops that
-/// differentiate, else 0. False: the words do not fit the shadeop's signature.
+/// Splits the operand words of a call: stored operands first, then read ones. `level`: the last word of
+/// shadeops that differentiate, else 0. False: the words do not fit the shadeop's signature.
 bool decode_call(const ShadeopInfo& info, std::span<const uint32_t> words, std::vector<CallOperand>& operands,
                  uint32_t& level);
 
-constexpr uint16_t instruction_opcode(uint32_t head) { return static_cast<uint16_t>(head & 0xffff); }
-constexpr uint32_t instruction_words(uint32_t head) { return head >> 16; }
+constexpr uint16_t instruction_opcode(uint32_t head) {
+  return static_cast<uint16_t>(head & 0xffff);
+}
+constexpr uint32_t instruction_words(uint32_t head) {
+  return head >> 16;
+}
 
 } // namespace slvm

@@ -1,5 +1,5 @@
-// Programs as text: one instruction a line, registers named by space (c constant, u uniform, s strip, g grid, slots
-// by name, @ arrays), regions indented.
+// Programs as text: one instruction a line, registers named by space (c constant, u uniform, s strip, g grid,
+// slots by name, @ arrays), regions indented.
 #include "slvm/format/disasm.h"
 
 #include "slvm/format/decode.h"
@@ -15,12 +15,15 @@ public:
   explicit Disassembler(const Program& p) : p_(p) {}
 
   std::string run() {
-    out_ = fmt::format("{} \"{}\": {} uniform, {} strip, {} grid planes, mask depth {}\n", shader_kind_name(p_.kind), p_.name,
-                       p_.uniform_planes, p_.strip_planes, p_.grid_planes, p_.mask_depth);
+    out_ = fmt::format("{} \"{}\": {} uniform, {} strip, {} grid planes, mask depth {}\n",
+                       shader_kind_name(p_.kind), p_.name, p_.uniform_planes, p_.strip_planes, p_.grid_planes,
+                       p_.mask_depth);
     size_t line = 0;
     for (uint32_t at = 0; at < p_.code.size();) {
-      if (auto it = std::find(p_.sections.begin(), p_.sections.end(), at); it != p_.sections.end()) section(it - p_.sections.begin());
-      while (line < p_.lines.size() && p_.lines[line].code <= at) ++line;
+      if (auto it = std::find(p_.sections.begin(), p_.sections.end(), at); it != p_.sections.end())
+        section(it - p_.sections.begin());
+      while (line < p_.lines.size() && p_.lines[line].code <= at)
+        ++line;
       at += instruction(at, line ? p_.lines[line - 1].line : 0);
     }
     return std::move(out_);
@@ -64,13 +67,16 @@ private:
       for (size_t i = 0; i < words.size(); ++i) {
         char kind = info.operands[i];
         text += i ? ", " : " ";
-        text += kind == 't' ? fmt::format("->{}", words[i]) : kind == 'n' || kind == 'p' ? fmt::format("{}", words[i]) : operand(words[i]);
+        text += kind == 't'                  ? fmt::format("->{}", words[i])
+                : kind == 'n' || kind == 'p' ? fmt::format("{}", words[i])
+                                             : operand(words[i]);
       }
     } else {
       text = call(opcode, words);
     }
     out_ += fmt::format("{:5} {:{}}{:<60}", at, "", indent * 2, text);
-    while (out_.back() == ' ') out_.pop_back();
+    while (out_.back() == ' ')
+      out_.pop_back();
     if (line) out_ += fmt::format("  ; line {}", line);
     out_ += '\n';
     return 1 + count;
@@ -99,6 +105,8 @@ private:
 
 } // namespace
 
-std::string disassemble(const Program& program) { return Disassembler(program).run(); }
+std::string disassemble(const Program& program) {
+  return Disassembler(program).run();
+}
 
 } // namespace slvm

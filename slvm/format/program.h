@@ -1,5 +1,6 @@
-// A compiled shader in memory: what a .slo file holds. PUBLIC. Shared contract of slc (which makes it) and slvm (which
-// runs it). Read next: opcodes.def (the instructions), slo.h (file form), verify.h (what a loader may rely on).
+// A compiled shader in memory: what a .slo file holds. PUBLIC. Shared contract of slc (which makes it) and
+// slvm (which runs it). Read next: opcodes.def (the instructions), slo.h (file form), verify.h (what a loader
+// may rely on).
 #pragma once
 
 #include "slvm/format/shadeop_info.h"
@@ -30,7 +31,8 @@ struct OpcodeInfo {
 };
 const OpcodeInfo& opcode_info(Opcode);
 
-/// Where a register lives. A register operand is one word: space in the top 3 bits, index of its first plane below.
+/// Where a register lives. A register operand is one word: space in the top 3 bits, index of its first plane
+/// below.
 enum class Space : uint8_t {
   kConstant, ///< the program's constants: uniform, never stored to
   kUniform,  ///< one value
@@ -43,8 +45,12 @@ inline constexpr int kSpaceCount = 6;
 constexpr uint32_t make_operand(Space space, uint32_t index) {
   return static_cast<uint32_t>(space) << 29 | index;
 }
-constexpr Space operand_space(uint32_t word) { return static_cast<Space>(word >> 29); }
-constexpr uint32_t operand_index(uint32_t word) { return word & 0x1fffffffu; }
+constexpr Space operand_space(uint32_t word) {
+  return static_cast<Space>(word >> 29);
+}
+constexpr uint32_t operand_index(uint32_t word) {
+  return word & 0x1fffffffu;
+}
 
 /// An external variable: a predefined one, or a parameter.
 struct Slot {
@@ -69,7 +75,8 @@ struct Param {
   std::string default_space;
   /// Slot of this parameter, or -1: the program does not use it.
   int32_t slot = -1;
-  /// Code section that computes the default and stores it to the slot, or -1: the default is default_value as it is.
+  /// Code section that computes the default and stores it to the slot, or -1: the default is default_value as
+  /// it is.
   int32_t init = -1;
   bool operator==(const Param&) const = default;
 };
@@ -99,10 +106,10 @@ struct Annotation {
 /// What introspection tells about a shader beside its parameters.
 struct Facts {
   bool derivatives = false, lights = false, textures = false, rays = false;
-  std::vector<std::string> messages_read;    ///< "surface:name", "light:name"...
-  std::vector<std::string> texture_names;    ///< constant ones
-  std::vector<std::string> shadeops;         ///< names of the built-ins called, sorted
-  std::vector<std::string> plugins;          ///< DSO shadeops' libraries
+  std::vector<std::string> messages_read; ///< "surface:name", "light:name"...
+  std::vector<std::string> texture_names; ///< constant ones
+  std::vector<std::string> shadeops;      ///< names of the built-ins called, sorted
+  std::vector<std::string> plugins;       ///< DSO shadeops' libraries
   bool operator==(const Facts&) const = default;
 };
 
@@ -126,7 +133,8 @@ struct Program {
   uint32_t mask_depth = 0; ///< deepest nesting of regions that change the mask
 
   std::vector<uint32_t> code;
-  std::vector<uint32_t> sections; ///< where code sections begin: 0 the shader, then the defaults of parameters
+  std::vector<uint32_t>
+      sections; ///< where code sections begin: 0 the shader, then the defaults of parameters
   std::vector<std::string> files;
   std::vector<LineEntry> lines;
 

@@ -1,5 +1,6 @@
 // The rows of shadeops.def and tokens.def as data: overloads, flags, documentation. No kernels. PUBLIC.
-// Semantic analysis, code generation, the verifier, the VM's kernel tables, sloinfo and the manual all read this.
+// Semantic analysis, code generation, the verifier, the VM's kernel tables, sloinfo and the manual all read
+// this.
 #pragma once
 
 #include "slvm/format/signature.h"
@@ -15,28 +16,29 @@ enum class ShadeopKind : uint8_t {
   kKernel,  ///< a SIMD kernel, run strip by strip; pure
   kGrid,    ///< a function over the whole grid (a barrier): derivatives, services, messages, printing
   kRsl,     ///< an RSL body in stdlib/builtins, inlined by slc; never appears in compiled code
-  kPending, ///< known to the language and type-checked; binding a shader that still calls it is an error naming it
+  kPending, ///< known to the language and type-checked; binding a shader that still calls it is an error
+            ///< naming it
 };
 
 /// Properties, or-ed in the flags column.
 enum ShadeopFlags : uint32_t {
-  kPure = 0,                  ///< depends on its arguments only (default)
-  kHiddenVarying = 1u << 0,   ///< what it stores is varying even when all arguments are uniform (random, Du, messages);
-                              ///< not a result declared uniform, nor strings
-  kDerivative = 1u << 1,      ///< differentiates its first varying arguments along u and v
-  kEffect = 1u << 2,          ///< must be executed, in order, exactly where it stands (printf, messages that store)
-  kReadsState = 1u << 3,      ///< reads state that effects may change: not merged across them
-  kLights = 1u << 4,          ///< runs light shaders
-  kFoldLeft = 1u << 5,        ///< f(a,b,c) means f(f(a,b),c): variadic in the language, binary in the kernel
-  kInternal = 1u << 6,        ///< not callable from source: an operator, or a helper of an RSL body
-  kNoFold = 1u << 7,          ///< never folded to a constant at compile time
-  kStringPool = 1u << 8,      ///< uniform strings in or out: runs at grid level with access to the string table
-  kLightOnly = 1u << 9,       ///< legal in light shaders only
-  kSurfaceOnly = 1u << 10,    ///< not legal in light shaders
-  kInIlluminance = 1u << 11,  ///< legal inside an illuminance loop only
-  kRays = 1u << 12,           ///< traces rays
-  kTexture = 1u << 13,        ///< reads texture, environment or shadow maps
-  kContextOut = 1u << 14,     ///< outputs keep their old value where the call finds nothing
+  kPure = 0,                ///< depends on its arguments only (default)
+  kHiddenVarying = 1u << 0, ///< what it stores is varying even when all arguments are uniform (random, Du,
+                            ///< messages); not a result declared uniform, nor strings
+  kDerivative = 1u << 1, ///< differentiates its first varying arguments along u and v
+  kEffect = 1u << 2, ///< must be executed, in order, exactly where it stands (printf, messages that store)
+  kReadsState = 1u << 3,   ///< reads state that effects may change: not merged across them
+  kLights = 1u << 4,       ///< runs light shaders
+  kFoldLeft = 1u << 5,     ///< f(a,b,c) means f(f(a,b),c): variadic in the language, binary in the kernel
+  kInternal = 1u << 6,     ///< not callable from source: an operator, or a helper of an RSL body
+  kNoFold = 1u << 7,       ///< never folded to a constant at compile time
+  kStringPool = 1u << 8,   ///< uniform strings in or out: runs at grid level with access to the string table
+  kLightOnly = 1u << 9,    ///< legal in light shaders only
+  kSurfaceOnly = 1u << 10, ///< not legal in light shaders
+  kInIlluminance = 1u << 11, ///< legal inside an illuminance loop only
+  kRays = 1u << 12,          ///< traces rays
+  kTexture = 1u << 13,       ///< reads texture, environment or shadow maps
+  kContextOut = 1u << 14,    ///< outputs keep their old value where the call finds nothing
 };
 
 struct ShadeopInfo {
@@ -50,8 +52,8 @@ struct ShadeopInfo {
 
 using ShadeopId = uint16_t;
 
-/// All rows, in table order; a ShadeopId indexes it. Ids are not stable between versions: .slo files store names
-/// and signatures.
+/// All rows, in table order; a ShadeopId indexes it. Ids are not stable between versions: .slo files store
+/// names and signatures.
 std::span<const ShadeopInfo> shadeops();
 const ShadeopInfo& shadeop(ShadeopId id);
 /// Ids of all overloads of `name`, in table order; empty if unknown. O(log n).

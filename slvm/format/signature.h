@@ -1,13 +1,13 @@
-// Signatures of shadeops as text ("float(float min, float max, float x)"), parsed at compile time, so that the table
-// in shadeops.def stays readable and the types of an overload are written exactly once.
+// Signatures of shadeops as text ("float(float min, float max, float x)"), parsed at compile time, so that
+// the table in shadeops.def stays readable and the types of an overload are written exactly once.
 //
 //   signature = [ "uniform" ] type "(" [ param { "," param } ] ")"
 //   param     = { "uniform" | "output" | "inout" } ( type | "any" ) [ "[" "]" ] name [ "..." ]
 //             | "@" token_set                  optional token-value pairs, see tokens.def; always last
 //
-//   uniform   of a parameter: the argument must be uniform. Of the result: uniform whatever the arguments are.
-//   output    the call stores there and does not read it;  inout  it reads and stores. Both need a variable.
-//   any       a value of any type (printf arguments, message values).
+//   uniform   of a parameter: the argument must be uniform. Of the result: uniform whatever the arguments
+//   are. output    the call stores there and does not read it;  inout  it reads and stores. Both need a
+//   variable. any       a value of any type (printf arguments, message values).
 //   ...       on the last parameter: one or more arguments of this kind.
 //   []        an array of any length.
 #pragma once
@@ -56,7 +56,8 @@ struct SignatureParser {
   size_t at = 0;
 
   constexpr void skip_blanks() {
-    while (at < text.size() && text[at] == ' ') ++at;
+    while (at < text.size() && text[at] == ' ')
+      ++at;
   }
   constexpr bool take(char c) {
     skip_blanks();
@@ -72,7 +73,8 @@ struct SignatureParser {
     auto is_word = [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     };
-    while (at < text.size() && is_word(text[at])) ++at;
+    while (at < text.size() && is_word(text[at]))
+      ++at;
     return text.substr(begin, at - begin);
   }
   static constexpr bool parse_type(std::string_view w, Type& out) {
@@ -86,13 +88,19 @@ struct SignatureParser {
   constexpr bool parse_param(SignatureParam& p) {
     std::string_view w = word();
     for (;; w = word()) {
-      if (w == "uniform") p.uniform = true;
-      else if (w == "output") p.output = true, p.input = false;
-      else if (w == "inout") p.output = true;
-      else break;
+      if (w == "uniform")
+        p.uniform = true;
+      else if (w == "output")
+        p.output = true, p.input = false;
+      else if (w == "inout")
+        p.output = true;
+      else
+        break;
     }
-    if (w == "any") p.any = true;
-    else if (!parse_type(w, p.type) || p.type == Type::kVoid) return false;
+    if (w == "any")
+      p.any = true;
+    else if (!parse_type(w, p.type) || p.type == Type::kVoid)
+      return false;
     if (take('[')) {
       if (!take(']')) return false;
       p.array = true;

@@ -50,12 +50,12 @@ private:
     auto name = b_.CreateString(p.name);
     auto default_value = value(p.default_value);
     auto space = b_.CreateString(p.default_space);
-    return fb::CreateParam(b_, name, static_cast<uint8_t>(p.type), p.elements, p.varying, p.output, p.default_known,
-                           default_value, space, p.slot, p.init);
+    return fb::CreateParam(b_, name, static_cast<uint8_t>(p.type), p.elements, p.varying, p.output,
+                           p.default_known, default_value, space, p.slot, p.init);
   }
   flatbuffers::Offset<fb::Slot> slot(const Slot& s) {
-    return fb::CreateSlot(b_, b_.CreateString(s.name), static_cast<uint8_t>(s.type), s.elements, s.parameter, s.varying,
-                          s.stored);
+    return fb::CreateSlot(b_, b_.CreateString(s.name), static_cast<uint8_t>(s.type), s.elements, s.parameter,
+                          s.varying, s.stored);
   }
   flatbuffers::Offset<fb::Import> import(ShadeopId id) {
     auto name = b_.CreateString(std::string(shadeop(id).name));
@@ -72,12 +72,13 @@ private:
     auto textures = strings(f.texture_names);
     auto shadeop_names = strings(f.shadeops);
     auto plugins = strings(f.plugins);
-    return fb::CreateFacts(b_, f.derivatives, f.lights, f.textures, f.rays, messages, textures, shadeop_names, plugins);
+    return fb::CreateFacts(b_, f.derivatives, f.lights, f.textures, f.rays, messages, textures, shadeop_names,
+                           plugins);
   }
-  template <class T, class F>
-  auto tables(const std::vector<T>& list, F&& make) {
+  template <class T, class F> auto tables(const std::vector<T>& list, F&& make) {
     std::vector<decltype(make(list[0]))> offsets;
-    for (const T& item : list) offsets.push_back(make(item));
+    for (const T& item : list)
+      offsets.push_back(make(item));
     return b_.CreateVector(offsets);
   }
 
@@ -92,22 +93,26 @@ private:
     auto constants = b_.CreateVector(p.constants);
     auto texts = strings(p.strings);
     std::vector<fb::StringConstant> string_list;
-    for (auto [plane, text] : p.string_constants) string_list.emplace_back(plane, text);
+    for (auto [plane, text] : p.string_constants)
+      string_list.emplace_back(plane, text);
     auto string_constants = b_.CreateVectorOfStructs(string_list);
     std::vector<fb::Array> array_list;
     for (const ArrayInfo& a : p.arrays)
-      array_list.emplace_back(a.elements, a.index, static_cast<uint8_t>(a.type), static_cast<uint8_t>(a.space));
+      array_list.emplace_back(a.elements, a.index, static_cast<uint8_t>(a.type),
+                              static_cast<uint8_t>(a.space));
     auto arrays = b_.CreateVectorOfStructs(array_list);
     auto code = b_.CreateVector(p.code);
     auto sections = b_.CreateVector(p.sections);
     auto files = strings(p.files);
     std::vector<fb::Line> line_list;
-    for (const LineEntry& l : p.lines) line_list.emplace_back(l.code, l.file, l.line, l.column);
+    for (const LineEntry& l : p.lines)
+      line_list.emplace_back(l.code, l.file, l.line, l.column);
     auto lines = b_.CreateVectorOfStructs(line_list);
     auto ir = b_.CreateVector(p.ir);
-    return fb::CreateShader(b_, static_cast<uint8_t>(p.kind), name, source, p.source_hash, annotations, params,
-                            fact_table, imports, slots, constants, texts, string_constants, arrays, p.uniform_planes,
-                            p.strip_planes, p.grid_planes, p.mask_depth, code, sections, files, lines, ir);
+    return fb::CreateShader(b_, static_cast<uint8_t>(p.kind), name, source, p.source_hash, annotations,
+                            params, fact_table, imports, slots, constants, texts, string_constants, arrays,
+                            p.uniform_planes, p.strip_planes, p.grid_planes, p.mask_depth, code, sections,
+                            files, lines, ir);
   }
 
   flatbuffers::FlatBufferBuilder b_;
@@ -120,15 +125,16 @@ bool read_type(uint8_t raw, Type& out) {
   return raw < kTypeCount;
 }
 
-std::vector<std::string> read_strings(const flatbuffers::Vector<flatbuffers::Offset<flatbuffers::String>>* list) {
+std::vector<std::string>
+read_strings(const flatbuffers::Vector<flatbuffers::Offset<flatbuffers::String>>* list) {
   std::vector<std::string> out;
   if (list)
-    for (const auto* s : *list) out.push_back(s->str());
+    for (const auto* s : *list)
+      out.push_back(s->str());
   return out;
 }
 
-template <class T>
-std::vector<T> read_numbers(const flatbuffers::Vector<T>* list) {
+template <class T> std::vector<T> read_numbers(const flatbuffers::Vector<T>* list) {
   return list ? std::vector<T>(list->begin(), list->end()) : std::vector<T>();
 }
 
@@ -145,7 +151,8 @@ const char* read_param(const fb::Param& in, Param& out) {
   out.default_value.elements = v.elements();
   out.default_value.numbers = read_numbers(v.numbers());
   out.default_value.strings = read_strings(v.strings());
-  if (!read_type(in.type(), out.type) || !read_type(v.type(), out.default_value.type)) return "a parameter of no known type";
+  if (!read_type(in.type(), out.type) || !read_type(v.type(), out.default_value.type))
+    return "a parameter of no known type";
   return nullptr;
 }
 
@@ -155,12 +162,19 @@ const char* read_shader(const fb::Shader& in, Program& p) {
   p.name = in.name()->str();
   p.source_name = in.source_name()->str();
   p.source_hash = in.source_hash();
-  for (const fb::Annotation* a : *in.annotations()) p.annotations.push_back({a->id()->str(), a->text()->str()});
+  for (const fb::Annotation* a : *in.annotations())
+    p.annotations.push_back({a->id()->str(), a->text()->str()});
   for (const fb::Param* param : *in.params())
     if (const char* error = read_param(*param, p.params.emplace_back())) return error;
   const fb::Facts& f = *in.facts();
-  p.facts = {f.derivatives(), f.lights(), f.textures(), f.rays(), read_strings(f.messages_read()),
-             read_strings(f.texture_names()), read_strings(f.shadeops()), read_strings(f.plugins())};
+  p.facts = {f.derivatives(),
+             f.lights(),
+             f.textures(),
+             f.rays(),
+             read_strings(f.messages_read()),
+             read_strings(f.texture_names()),
+             read_strings(f.shadeops()),
+             read_strings(f.plugins())};
   for (const fb::Slot* s : *in.slots()) {
     Slot& slot = p.slots.emplace_back();
     slot = {s->name()->str(), Type::kFloat, s->elements(), s->parameter(), s->varying(), s->stored()};
@@ -168,7 +182,8 @@ const char* read_shader(const fb::Shader& in, Program& p) {
   }
   p.constants = read_numbers(in.constants());
   p.strings = read_strings(in.strings());
-  for (const fb::StringConstant* s : *in.string_constants()) p.string_constants.emplace_back(s->plane(), s->text());
+  for (const fb::StringConstant* s : *in.string_constants())
+    p.string_constants.emplace_back(s->plane(), s->text());
   for (const fb::Array* a : *in.arrays()) {
     ArrayInfo& array = p.arrays.emplace_back();
     if (a->space() >= kSpaceCount || !read_type(a->type(), array.type)) return "an array of no known type";
@@ -183,7 +198,8 @@ const char* read_shader(const fb::Shader& in, Program& p) {
   p.code = read_numbers(in.code());
   p.sections = read_numbers(in.sections());
   p.files = read_strings(in.files());
-  for (const fb::Line* l : *in.lines()) p.lines.push_back({l->code(), l->file(), l->line(), l->column()});
+  for (const fb::Line* l : *in.lines())
+    p.lines.push_back({l->code(), l->file(), l->line(), l->column()});
   p.ir = read_numbers(in.ir());
   return nullptr;
 }
@@ -192,10 +208,13 @@ const char* read_shader(const fb::Shader& in, Program& p) {
 std::string foreign_file(std::span<const std::byte> bytes) {
   std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 256));
   if (head.starts_with("AQSIS_V") || head.find("segment Data") != head.npos) return "an Aqsis shader (.slx)";
-  if (head.find("!parameters:") != head.npos || head.find("#!parameters") != head.npos) return "a Pixie shader (.sdr)";
+  if (head.find("!parameters:") != head.npos || head.find("#!parameters") != head.npos)
+    return "a Pixie shader (.sdr)";
   if (head.starts_with("OpenShadingLanguage")) return "an Open Shading Language shader (.oso)";
-  if (head.starts_with(";")  || head.find("slo") == 0) return "a shader compiled for another renderer";
-  if (head.starts_with("\x7f" "ELF")) return "a shared library (3Delight and others compile shaders to these)";
+  if (head.starts_with(";") || head.find("slo") == 0) return "a shader compiled for another renderer";
+  if (head.starts_with("\x7f"
+                       "ELF"))
+    return "a shared library (3Delight and others compile shaders to these)";
   bool text = !head.empty() && std::all_of(head.begin(), head.end(), [](char c) {
     return c == '\n' || c == '\r' || c == '\t' || (c >= 32 && c < 127);
   });
@@ -206,11 +225,14 @@ std::string foreign_file(std::span<const std::byte> bytes) {
 
 uint64_t hash_bytes(std::span<const std::byte> bytes) {
   uint64_t h = 0xcbf29ce484222325ull;
-  for (std::byte b : bytes) h = (h ^ static_cast<uint64_t>(b)) * 0x100000001b3ull;
+  for (std::byte b : bytes)
+    h = (h ^ static_cast<uint64_t>(b)) * 0x100000001b3ull;
   return h;
 }
 
-std::vector<std::byte> write_slo(const Program& program) { return Writer().write(program); }
+std::vector<std::byte> write_slo(const Program& program) {
+  return Writer().write(program);
+}
 
 Result<Program> read_slo(std::span<const std::byte> bytes) {
   if (bytes.size() < sizeof kMagic || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) {
@@ -220,18 +242,21 @@ Result<Program> read_slo(std::span<const std::byte> bytes) {
   if (bytes.size() < kHeaderBytes) return Error{"truncated: the header is incomplete"};
   auto version = static_cast<uint8_t>(bytes[7]);
   if (version != kSloVersion)
-    return Error{fmt::format("made for version {} of the format, this program reads version {}: compile the shader again",
-                             version, kSloVersion)};
+    return Error{fmt::format(
+        "made for version {} of the format, this program reads version {}: compile the shader again", version,
+        kSloVersion)};
   uint64_t hash;
   std::memcpy(&hash, bytes.data() + 8, sizeof hash);
   std::span<const std::byte> payload = bytes.subspan(kHeaderBytes);
-  if (hash != hash_bytes(payload)) return Error{"damaged: the contents do not match their checksum (truncated or altered)"};
+  if (hash != hash_bytes(payload))
+    return Error{"damaged: the contents do not match their checksum (truncated or altered)"};
   // FlatBuffers wants its data aligned; a span of a file need not be.
   std::vector<uint64_t> aligned((payload.size() + 7) / 8);
   std::memcpy(aligned.data(), payload.data(), payload.size());
   const auto* data = reinterpret_cast<const uint8_t*>(aligned.data());
   flatbuffers::Verifier verifier(data, payload.size(), 64, 50'000'000);
-  if (payload.empty() || !verifier.VerifyBuffer<fb::Shader>(nullptr)) return Error{"damaged: the container is not well-formed"};
+  if (payload.empty() || !verifier.VerifyBuffer<fb::Shader>(nullptr))
+    return Error{"damaged: the container is not well-formed"};
   const auto* root = flatbuffers::GetRoot<fb::Shader>(data);
   Program program;
   for (const fb::Import* i : *root->imports()) {

@@ -18,8 +18,8 @@ inline constexpr size_t kMaxSloBytes = size_t{256} << 20;
 
 std::vector<std::byte> write_slo(const Program& program);
 
-/// Reads and verifies: the header, the hash, the container, then the program (verify.h). The error says what is wrong,
-/// and names the foreign compilers whose files are recognised.
+/// Reads and verifies: the header, the hash, the container, then the program (verify.h). The error says what
+/// is wrong, and names the foreign compilers whose files are recognised.
 Result<Program> read_slo(std::span<const std::byte> bytes);
 
 /// Reads a whole file. Errors name the path.

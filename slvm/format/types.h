@@ -15,8 +15,8 @@ enum class Detail : uint8_t { kUniform, kVarying };
 enum class ShaderKind : uint8_t { kSurface, kDisplacement, kLight, kVolume, kImager };
 inline constexpr int kShaderKindCount = 5;
 
-/// Float planes (structure of arrays) one value occupies. A bool is one plane of all-ones or all-zero bit patterns;
-/// a string is one plane holding the bits of its id in the machine's string table.
+/// Float planes (structure of arrays) one value occupies. A bool is one plane of all-ones or all-zero bit
+/// patterns; a string is one plane holding the bits of its id in the machine's string table.
 constexpr int components(Type t) {
   switch (t) {
   case Type::kVoid: return 0;

@@ -1,5 +1,5 @@
-// The bytecode verifier. Tables first, then each code section in one walk that matches brackets and checks operands,
-// and a second that checks jump targets against the brackets found.
+// The bytecode verifier. Tables first, then each code section in one walk that matches brackets and checks
+// operands, and a second that checks jump targets against the brackets found.
 #include "slvm/format/verify.h"
 
 #include "slvm/format/decode.h"
@@ -23,18 +23,23 @@ public:
     if (p_.uniform_planes > kMaxUniformPlanes || p_.strip_planes > kMaxPlanes || p_.grid_planes > kMaxPlanes)
       throw Failure{"more registers than allowed"};
     if (p_.mask_depth > kMaxMaskDepth) throw Failure{"masks nested deeper than allowed"};
-    for (const Slot& s : p_.slots) check_slot(s);
-    for (const Param& param : p_.params) check_param(param);
+    for (const Slot& s : p_.slots)
+      check_slot(s);
+    for (const Param& param : p_.params)
+      check_param(param);
     for (auto [plane, text] : p_.string_constants)
-      if (plane >= p_.constants.size() || text >= p_.strings.size()) throw Failure{"a string constant out of bounds"};
-    for (const ArrayInfo& a : p_.arrays) check_array(a);
+      if (plane >= p_.constants.size() || text >= p_.strings.size())
+        throw Failure{"a string constant out of bounds"};
+    for (const ArrayInfo& a : p_.arrays)
+      check_array(a);
     for (const LineEntry& l : p_.lines)
       if (l.file >= std::max<size_t>(p_.files.size(), 1)) throw Failure{"a line table entry names no file"};
   }
 
 private:
   void check_slot(const Slot& s) const {
-    if (s.type == Type::kVoid || s.type == Type::kBool) throw Failure{fmt::format("variable '{}' has no type", s.name)};
+    if (s.type == Type::kVoid || s.type == Type::kBool)
+      throw Failure{fmt::format("variable '{}' has no type", s.name)};
     if (s.elements > kMaxUniformPlanes) throw Failure{fmt::format("array '{}' is too long", s.name)};
     if (s.parameter) return;
     Global g = find_global(s.name);
@@ -47,17 +52,20 @@ private:
       throw Failure{fmt::format("parameter '{}' has no proper type", p.name)};
     const Value& v = p.default_value;
     size_t count = p.elements ? p.elements : 1;
-    if (p.default_known && (v.type != p.type || v.elements != p.elements ||
-                            (p.type == Type::kString ? v.strings.size() != count
-                                                     : v.numbers.size() != count * static_cast<size_t>(components(p.type)))))
+    if (p.default_known &&
+        (v.type != p.type || v.elements != p.elements ||
+         (p.type == Type::kString ? v.strings.size() != count
+                                  : v.numbers.size() != count * static_cast<size_t>(components(p.type)))))
       throw Failure{fmt::format("the default of parameter '{}' does not fit its type", p.name)};
-    if (p.slot < -1 || p.slot >= static_cast<int32_t>(p_.slots.size())) throw Failure{"a parameter without variable"};
+    if (p.slot < -1 || p.slot >= static_cast<int32_t>(p_.slots.size()))
+      throw Failure{"a parameter without variable"};
     if (p.slot >= 0) {
       const Slot& s = p_.slots[static_cast<size_t>(p.slot)];
       if (!s.parameter || s.type != p.type || s.elements != p.elements || s.varying != p.varying)
         throw Failure{fmt::format("parameter '{}' does not agree with its variable", p.name)};
     }
-    if (p.init == 0 || p.init < -1 || p.init >= static_cast<int32_t>(p_.sections.size()) || (p.init > 0 && p.slot < 0))
+    if (p.init == 0 || p.init < -1 || p.init >= static_cast<int32_t>(p_.sections.size()) ||
+        (p.init > 0 && p.slot < 0))
       throw Failure{fmt::format("the default of parameter '{}' has no code", p.name)};
     if (p.init < 0 && !p.default_known) throw Failure{fmt::format("parameter '{}' has no default", p.name)};
   }
@@ -66,9 +74,12 @@ private:
     uint64_t planes = uint64_t{a.elements} * static_cast<uint64_t>(components(a.type));
     bool ok = a.elements > 0 && planes > 0 && planes <= kMaxUniformPlanes;
     if (a.space == Space::kSlot)
-      ok = ok && a.index < p_.slots.size() && p_.slots[a.index].elements == a.elements && p_.slots[a.index].type == a.type;
-    else if (a.space == Space::kUniform) ok = ok && a.index + planes <= p_.uniform_planes;
-    else ok = ok && a.space == Space::kGrid && a.index + planes <= p_.grid_planes;
+      ok = ok && a.index < p_.slots.size() && p_.slots[a.index].elements == a.elements &&
+           p_.slots[a.index].type == a.type;
+    else if (a.space == Space::kUniform)
+      ok = ok && a.index + planes <= p_.uniform_planes;
+    else
+      ok = ok && a.space == Space::kGrid && a.index + planes <= p_.grid_planes;
     if (!ok) throw Failure{"an array out of bounds"};
   }
 
@@ -99,15 +110,15 @@ private:
     throw Failure{fmt::format("code word {}: {}", at, what)};
   }
 
-  template <class F>
-  void walk(F&& visit) {
+  template <class F> void walk(F&& visit) {
     for (uint32_t at = begin_; at < section_end_;) {
       uint32_t words = instruction_words(p_.code[at]);
       if (words >= section_end_ - at) fail(at, "the instruction does not fit");
       last_opcode_ = instruction_opcode(p_.code[at]);
       visit(at, std::span(p_.code).subspan(at + 1, words));
       at += 1 + words;
-      if (last_opcode_ == static_cast<uint16_t>(Opcode::k_end) && at != section_end_) fail(at, "code after the end");
+      if (last_opcode_ == static_cast<uint16_t>(Opcode::k_end) && at != section_end_)
+        fail(at, "code after the end");
     }
   }
 
@@ -127,9 +138,12 @@ private:
     const OpcodeInfo& info = opcode_info(op);
     if (info.operands.size() != words.size()) fail(at, "wrong number of operands");
     if ((info.flags & kGridOnly) && in_strip()) fail(at, "an instruction for whole grids in a strip block");
-    if (info.flags & kOpen) open_region(at, op, words);
-    else if (info.flags & kMiddle) middle(at, op);
-    else if (info.flags & kClose) close_region(at, op);
+    if (info.flags & kOpen)
+      open_region(at, op, words);
+    else if (info.flags & kMiddle)
+      middle(at, op);
+    else if (info.flags & kClose)
+      close_region(at, op);
     check_operands(at, op, words);
   }
 
@@ -139,17 +153,21 @@ private:
     if (op == Opcode::k_illuminance && p_.kind == ShaderKind::kLight) fail(at, "a light loop in a light");
     if (emitter || op == Opcode::k_illuminance)
       for (int32_t r : open_)
-        if (opcode_info(regions_[static_cast<size_t>(r)].open).flags & kGridOnly) fail(at, "light statements do not nest");
+        if (opcode_info(regions_[static_cast<size_t>(r)].open).flags & kGridOnly)
+          fail(at, "light statements do not nest");
     if (emitter)
       for (Global g : {Global::kL, Global::kPs, Global::kNs})
-        if (std::none_of(p_.slots.begin(), p_.slots.end(), [&](const Slot& s) { return !s.parameter && s.name == global_info(g).name; }))
+        if (std::none_of(p_.slots.begin(), p_.slots.end(),
+                         [&](const Slot& s) { return !s.parameter && s.name == global_info(g).name; }))
           fail(at, "a light cone without L, Ps and Ns");
-    Region region{op, at, 0, 0, at + 1 + static_cast<uint32_t>(words.size()), open_.empty() ? -1 : open_.back()};
+    Region region{
+        op, at, 0, 0, at + 1 + static_cast<uint32_t>(words.size()), open_.empty() ? -1 : open_.back()};
     open_.push_back(static_cast<int32_t>(regions_.size()));
     regions_.push_back(region);
     at_region_[at] = open_.back();
     uint32_t depth = 0;
-    for (int32_t r : open_) depth += changes_mask(regions_[static_cast<size_t>(r)].open);
+    for (int32_t r : open_)
+      depth += changes_mask(regions_[static_cast<size_t>(r)].open);
     if (depth > p_.mask_depth) fail(at, "masks nest deeper than declared");
   }
   static bool changes_mask(Opcode op) { return op != Opcode::k_strip && op != Opcode::k_uif; }
@@ -164,12 +182,16 @@ private:
   }
 
   void close_region(uint32_t at, Opcode op) {
-    static constexpr std::pair<Opcode, Opcode> kPairs[] = {
-        {Opcode::k_endstrip, Opcode::k_strip},           {Opcode::k_endif, Opcode::k_if},
-        {Opcode::k_uendif, Opcode::k_uif},               {Opcode::k_endloop, Opcode::k_loop},
-        {Opcode::k_endblock, Opcode::k_block},           {Opcode::k_endilluminance, Opcode::k_illuminance},
-        {Opcode::k_endilluminate, Opcode::k_illuminate}, {Opcode::k_endsolar, Opcode::k_solar}};
-    Opcode expected = std::find_if(std::begin(kPairs), std::end(kPairs), [&](auto p) { return p.first == op; })->second;
+    static constexpr std::pair<Opcode, Opcode> kPairs[] = {{Opcode::k_endstrip, Opcode::k_strip},
+                                                           {Opcode::k_endif, Opcode::k_if},
+                                                           {Opcode::k_uendif, Opcode::k_uif},
+                                                           {Opcode::k_endloop, Opcode::k_loop},
+                                                           {Opcode::k_endblock, Opcode::k_block},
+                                                           {Opcode::k_endilluminance, Opcode::k_illuminance},
+                                                           {Opcode::k_endilluminate, Opcode::k_illuminate},
+                                                           {Opcode::k_endsolar, Opcode::k_solar}};
+    Opcode expected =
+        std::find_if(std::begin(kPairs), std::end(kPairs), [&](auto p) { return p.first == op; })->second;
     if (open_.empty() || regions_[static_cast<size_t>(open_.back())].open != expected)
       fail(at, "the end of a region that is not open");
     regions_[static_cast<size_t>(open_.back())].end = at;
@@ -197,7 +219,8 @@ private:
   // Code sections behind the first store the default of their parameter, whatever the shader does with it.
   bool computes_default_of(uint32_t slot) const {
     for (const Param& param : p_.params)
-      if (param.slot == static_cast<int32_t>(slot) && param.init > 0 && p_.sections[static_cast<size_t>(param.init)] == begin_)
+      if (param.slot == static_cast<int32_t>(slot) && param.init > 0 &&
+          p_.sections[static_cast<size_t>(param.init)] == begin_)
         return true;
     return false;
   }
@@ -207,7 +230,8 @@ private:
     uint32_t index = operand_index(word);
     switch (operand_space(word)) {
     case Space::kConstant:
-      if (stored || end > p_.constants.size()) fail(at, stored ? "a store to a constant" : "a constant out of bounds");
+      if (stored || end > p_.constants.size())
+        fail(at, stored ? "a store to a constant" : "a constant out of bounds");
       return;
     case Space::kUniform:
       if (end > p_.uniform_planes) fail(at, "a register out of bounds");
@@ -223,7 +247,8 @@ private:
       if (index >= p_.slots.size() || p_.slots[index].elements ||
           static_cast<uint32_t>(components(p_.slots[index].type)) != planes)
         fail(at, "a variable out of bounds");
-      if (stored && !p_.slots[index].stored && !computes_default_of(index)) fail(at, "a store to a read-only variable");
+      if (stored && !p_.slots[index].stored && !computes_default_of(index))
+        fail(at, "a store to a read-only variable");
       return;
     case Space::kArray: break;
     }
@@ -231,7 +256,8 @@ private:
   }
 
   const ArrayInfo& check_array(uint32_t at, uint32_t word) const {
-    if (operand_space(word) != Space::kArray || operand_index(word) >= p_.arrays.size()) fail(at, "an array out of bounds");
+    if (operand_space(word) != Space::kArray || operand_index(word) >= p_.arrays.size())
+      fail(at, "an array out of bounds");
     return p_.arrays[operand_index(word)];
   }
 
@@ -317,7 +343,8 @@ private:
     if (info.kind == ShadeopKind::kRsl) fail(at, "a call of a function that has no code of its own");
     if (info.kind != ShadeopKind::kKernel && in_strip()) fail(at, "a call for whole grids in a strip block");
     uint32_t level = 0;
-    if (!decode_call(info, words, operands_, level)) fail(at, fmt::format("operands do not fit '{}'", info.name));
+    if (!decode_call(info, words, operands_, level))
+      fail(at, fmt::format("operands do not fit '{}'", info.name));
     if (level > open_.size()) fail(at, "a mask level that is not open");
     bool uniform_store = false;
     for (const CallOperand& o : operands_) {
@@ -333,14 +360,17 @@ private:
       }
       if (o.uniform) check_uniform(at, o.word);
       if (o.store) uniform_store |= !is_varying(at, o.word);
-      // Kernels run for as many lanes as what they store to has. Of an array, arraylength reads no lane at all.
-      else if (uniform_store && info.kind == ShadeopKind::kKernel && !is_array) check_uniform(at, o.word);
+      // Kernels run for as many lanes as what they store to has. Of an array, arraylength reads no lane at
+      // all.
+      else if (uniform_store && info.kind == ShadeopKind::kKernel && !is_array)
+        check_uniform(at, o.word);
     }
     if (info.kind == ShadeopKind::kKernel) {
       size_t stores = 0, varying_stores = 0;
       for (const CallOperand& o : operands_)
         if (o.store) ++stores, varying_stores += is_varying(at, o.word);
-      if (stores == 0 || (varying_stores != 0 && varying_stores != stores)) fail(at, "results of mixed detail");
+      if (stores == 0 || (varying_stores != 0 && varying_stores != stores))
+        fail(at, "results of mixed detail");
     }
   }
 
@@ -376,7 +406,8 @@ private:
       if (rounds) expect(at, w[0], own->body);
       if (op != Opcode::k_endstrip) expect(at, w[rounds ? 1 : 0], part_end(own->parent, at));
     } else if (op == Opcode::k_while || op == Opcode::k_uwhile) {
-      if (open_.empty() || regions_[static_cast<size_t>(open_.back())].open != Opcode::k_loop) fail(at, "a while outside a loop");
+      if (open_.empty() || regions_[static_cast<size_t>(open_.back())].open != Opcode::k_loop)
+        fail(at, "a while outside a loop");
       expect(at, w[1], part_end(open_.back(), at));
     } else if (op == Opcode::k_break || op == Opcode::k_continue) {
       check_exit(at, op, w);
@@ -389,7 +420,8 @@ private:
       Opcode open = regions_[static_cast<size_t>(open_[i])].open;
       if (open == Opcode::k_strip) break;
       if (!(opcode_info(open).flags & kLoops)) continue;
-      if (--to_pass == 0 && op == Opcode::k_continue && open == Opcode::k_block) fail(at, "the next round of no loop");
+      if (--to_pass == 0 && op == Opcode::k_continue && open == Opcode::k_block)
+        fail(at, "the next round of no loop");
     }
     if (w[0] == 0 || to_pass > 0) fail(at, "an exit from more loops than are open");
     expect(at, w[1], part_end(open_.empty() ? -1 : open_.back(), at));
@@ -412,7 +444,8 @@ std::string verify_program(const Program& program) {
     if (program.sections.empty() || program.sections[0] != 0) throw Failure{"no code"};
     for (size_t i = 0; i < program.sections.size(); ++i) {
       size_t end = i + 1 < program.sections.size() ? program.sections[i + 1] : program.code.size();
-      if (end <= program.sections[i] || end > program.code.size()) throw Failure{"a code section out of bounds"};
+      if (end <= program.sections[i] || end > program.code.size())
+        throw Failure{"a code section out of bounds"};
       CodeVerifier(program, program.sections[i], static_cast<uint32_t>(end)).run();
     }
   } catch (const Failure& failure) {

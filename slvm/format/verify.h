@@ -1,5 +1,6 @@
-// The bytecode verifier: runs on every load, in every build. After it a program cannot make the virtual machine read
-// or write outside its registers, jump anywhere but to brackets of its own regions, or unbalance the mask stack.
+// The bytecode verifier: runs on every load, in every build. After it a program cannot make the virtual
+// machine read or write outside its registers, jump anywhere but to brackets of its own regions, or unbalance
+// the mask stack.
 #pragma once
 
 #include "slvm/format/program.h"

@@ -28,7 +28,8 @@ private:
         block = blocks++;
         strip_begin_ = i;
       }
-      for (uint32_t reg : code_.insts[i].begins) refer(reg, i, block);
+      for (uint32_t reg : code_.insts[i].begins)
+        refer(reg, i, block);
       for (const LowOperand& o : code_.insts[i].operands)
         if (o.kind == LowOperand::Kind::kReg) refer(o.value, i, block);
       if (op == Opcode::k_endstrip) {
@@ -48,17 +49,22 @@ private:
     if (block < 0 || r.block != block) r.block = -2;
   }
 
-  // What is defined before a loop and read in it must last to its end. A strip block is a loop over strips for the
-  // uniform registers: those are the same for all strips. Inner loops stand before outer ones in the list.
+  // What is defined before a loop and read in it must last to its end. A strip block is a loop over strips
+  // for the uniform registers: those are the same for all strips. Inner loops stand before outer ones in the
+  // list.
   void extend_over_rounds() {
     auto extend = [&](std::pair<uint32_t, uint32_t> loop, bool uniform_only) {
       for (LowReg& r : code_.regs)
-        if (r.first < loop.first && r.last > loop.first && r.last < loop.second && !(uniform_only && r.varying))
+        if (r.first < loop.first && r.last > loop.first && r.last < loop.second &&
+            !(uniform_only && r.varying))
           r.last = loop.second;
     };
-    for (auto loop : code_.loops) extend(loop, false);
-    for (auto strip : strips_) extend(strip, true);
-    for (auto loop : code_.loops) extend(loop, false);
+    for (auto loop : code_.loops)
+      extend(loop, false);
+    for (auto strip : strips_)
+      extend(strip, true);
+    for (auto loop : code_.loops)
+      extend(loop, false);
   }
 
   struct Pool {
@@ -92,9 +98,11 @@ private:
       Pool& pool = pools[space];
       r.index = reuse_source(i) ? r.index : take(pool, base[space], r);
       if (pool.free_from.size() < r.index + r.planes) pool.free_from.resize(r.index + r.planes, 0);
-      for (uint32_t k = 0; k < r.planes; ++k) pool.free_from[r.index + k] = r.last + 1;
+      for (uint32_t k = 0; k < r.planes; ++k)
+        pool.free_from[r.index + k] = r.last + 1;
     }
-    program_.uniform_planes = std::max<uint32_t>(program_.uniform_planes, plane_count(pools, Space::kUniform));
+    program_.uniform_planes =
+        std::max<uint32_t>(program_.uniform_planes, plane_count(pools, Space::kUniform));
     program_.grid_planes = std::max<uint32_t>(program_.grid_planes, plane_count(pools, Space::kGrid));
     program_.strip_planes = plane_count(pools, Space::kStrip);
   }
@@ -107,7 +115,8 @@ private:
     LowReg& r = code_.regs[reg];
     LowInst& inst = code_.insts[r.first];
     auto op = static_cast<Opcode>(inst.opcode);
-    if ((op != Opcode::k_mov && op != Opcode::k_movm) || inst.operands[1] != LowOperand{LowOperand::Kind::kReg, reg})
+    if ((op != Opcode::k_mov && op != Opcode::k_movm) ||
+        inst.operands[1] != LowOperand{LowOperand::Kind::kReg, reg})
       return false;
     if (inst.operands[2].kind != LowOperand::Kind::kReg) return false;
     const LowReg& source = code_.regs[inst.operands[2].value];
@@ -120,7 +129,8 @@ private:
   void drop_empty_strips() {
     for (auto [begin, end] : strips_) {
       bool empty = true;
-      for (uint32_t i = begin + 1; i < end; ++i) empty &= code_.insts[i].removed;
+      for (uint32_t i = begin + 1; i < end; ++i)
+        empty &= code_.insts[i].removed;
       if (empty) code_.insts[begin].removed = code_.insts[end].removed = true;
     }
   }
@@ -133,6 +143,8 @@ private:
 
 } // namespace
 
-void allocate(LowCode& code, Program& program) { Allocator(code, program).run(); }
+void allocate(LowCode& code, Program& program) {
+  Allocator(code, program).run();
+}
 
 } // namespace slvm::ir

@@ -8,16 +8,16 @@ namespace slvm::ir {
 
 std::string_view op_name(Op op) {
   constexpr std::string_view kNames[kOpCount] = {
-      "constant",   "slot",  "store", "call", "retype", "array",       "arrayclear", "arrayload", "arraystore",
-      "if",         "loop",  "block", "illuminance",    "illuminate",  "solar",      "yield",     "break",
-      "continue"};
+      "constant",    "slot",       "store",      "call",  "retype", "array",
+      "arrayclear",  "arrayload",  "arraystore", "if",    "loop",   "block",
+      "illuminance", "illuminate", "solar",      "yield", "break",  "continue"};
   return kNames[static_cast<int>(op)];
 }
 
 namespace {
 
-// The strongest effect inside a region. Breaks and continues of loops entered on the way (fewer than `depth`) stay
-// inside and do not count.
+// The strongest effect inside a region. Breaks and continues of loops entered on the way (fewer than `depth`)
+// stay inside and do not count.
 Effect region_effect(const Module& m, const Region& region, uint32_t depth) {
   Effect worst = Effect::kNone;
   for (InstId id : region.body) {
@@ -29,7 +29,8 @@ Effect region_effect(const Module& m, const Region& region, uint32_t depth) {
       continue;
     }
     if (inst.op == Op::kIlluminance) worst = std::max(worst, Effect::kReads);
-    if (inst.op == Op::kIlluminate || inst.op == Op::kSolar) return Effect::kWrites; // what lights emit counts
+    if (inst.op == Op::kIlluminate || inst.op == Op::kSolar)
+      return Effect::kWrites; // what lights emit counts
     for (const Region& nested : inst.regions)
       worst = std::max(worst, region_effect(m, nested, depth + is_loop(inst.op)));
   }
@@ -55,8 +56,8 @@ Effect effect_of(const Module& m, const Inst& inst) {
     bool stores_array = std::any_of(inst.results.begin(), inst.results.end(),
                                     [&](ValueId r) { return m.values[r].array >= 0; });
     if (info.flags & kEffect || info.kind == ShadeopKind::kPending || stores_array) return Effect::kWrites;
-    bool reads_array = std::any_of(inst.args.begin(), inst.args.end(),
-                                   [&](ValueId a) { return m.values[a].array >= 0; });
+    bool reads_array =
+        std::any_of(inst.args.begin(), inst.args.end(), [&](ValueId a) { return m.values[a].array >= 0; });
     return info.flags & (kReadsState | kLights) || reads_array ? Effect::kReads : Effect::kNone;
   }
   case Op::kIf:
@@ -64,7 +65,8 @@ Effect effect_of(const Module& m, const Inst& inst) {
   case Op::kBlock:
   case Op::kIlluminance: {
     Effect worst = inst.op == Op::kIlluminance ? Effect::kReads : Effect::kNone;
-    for (const Region& r : inst.regions) worst = std::max(worst, region_effect(m, r, is_loop(inst.op)));
+    for (const Region& r : inst.regions)
+      worst = std::max(worst, region_effect(m, r, is_loop(inst.op)));
     return worst;
   }
   case Op::kConstant:
@@ -116,14 +118,17 @@ void Builder::store(uint32_t slot, ValueId value) {
   add({Op::kStore, slot, {}, {value}, {}, {}});
 }
 
-std::vector<ValueId> Builder::call(ShadeopId id, std::span<const ValueId> args, std::span<const Type> result_types) {
+std::vector<ValueId> Builder::call(ShadeopId id, std::span<const ValueId> args,
+                                   std::span<const Type> result_types) {
   std::vector<ValueId> results;
-  for (Type t : result_types) results.push_back(new_value(t));
+  for (Type t : result_types)
+    results.push_back(new_value(t));
   add({Op::kCall, id, {}, {args.begin(), args.end()}, results, {}});
   return results;
 }
 
-ValueId Builder::call(std::string_view name, std::string_view signature, std::initializer_list<ValueId> args) {
+ValueId Builder::call(std::string_view name, std::string_view signature,
+                      std::initializer_list<ValueId> args) {
   int id = find_shadeop(name, signature);
   assert(id >= 0);
   Type result = shadeop(static_cast<ShadeopId>(id)).signature.result;
@@ -145,7 +150,9 @@ ValueId Builder::array(uint32_t array) {
   return v;
 }
 
-void Builder::array_clear(uint32_t array) { add({Op::kArrayClear, array, {}, {}, {}, {}}); }
+void Builder::array_clear(uint32_t array) {
+  add({Op::kArrayClear, array, {}, {}, {}, {}});
+}
 
 ValueId Builder::array_load(uint32_t array, ValueId subscript) {
   ValueId v = new_value(m_.arrays[array].type);
@@ -160,7 +167,8 @@ void Builder::array_store(uint32_t array, ValueId subscript, ValueId value) {
 InstId Builder::region_inst(Op op, uint32_t index, std::vector<ValueId> args, std::vector<Region> regions,
                             std::span<const Type> result_types) {
   std::vector<ValueId> results;
-  for (Type t : result_types) results.push_back(new_value(t));
+  for (Type t : result_types)
+    results.push_back(new_value(t));
   return add({op, index, {}, std::move(args), std::move(results), std::move(regions)});
 }
 
@@ -171,11 +179,13 @@ uint32_t Builder::add_array(Type t, uint32_t elements, int32_t slot) {
 
 void replace_uses(Module& m, Region& region, const std::vector<ValueId>& replacement) {
   auto resolve = [&](ValueId v) {
-    while (v < replacement.size() && replacement[v] != kNoValue && replacement[v] != v) v = replacement[v];
+    while (v < replacement.size() && replacement[v] != kNoValue && replacement[v] != v)
+      v = replacement[v];
     return v;
   };
   for_each_inst(m, region, [&](InstId id) {
-    for (ValueId& arg : m.insts[id].args) arg = resolve(arg);
+    for (ValueId& arg : m.insts[id].args)
+      arg = resolve(arg);
   });
 }
 

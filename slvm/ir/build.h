@@ -60,7 +60,8 @@ private:
   Region* region_ = nullptr;
 };
 
-/// Replaces every use of each key value by its mapped value (chains followed) in a region and all nested ones.
+/// Replaces every use of each key value by its mapped value (chains followed) in a region and all nested
+/// ones.
 void replace_uses(Module&, Region&, const std::vector<ValueId>& replacement);
 
 } // namespace slvm::ir

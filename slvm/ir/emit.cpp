@@ -44,13 +44,16 @@ void emit(const Module& m, Program& program) {
     const LowInst& inst = code.insts[i];
     if (inst.removed) continue;
     const SourceRange& where = inst.where;
-    if (where.valid() && (program.lines.empty() || program.lines.back().line != where.line ||
-                          program.lines.back().column != where.column || program.lines.back().file != where.file))
+    if (where.valid() &&
+        (program.lines.empty() || program.lines.back().line != where.line ||
+         program.lines.back().column != where.column || program.lines.back().file != where.file))
       program.lines.push_back({address[i], where.file, where.line, where.column});
     program.code.push_back(inst.opcode | static_cast<uint32_t>(inst.operands.size()) << 16);
-    for (const LowOperand& o : inst.operands) program.code.push_back(encode_operand(o, code, address));
+    for (const LowOperand& o : inst.operands)
+      program.code.push_back(encode_operand(o, code, address));
   }
-  for (uint32_t section : code.sections) program.sections.push_back(address[section]);
+  for (uint32_t section : code.sections)
+    program.sections.push_back(address[section]);
 }
 
 } // namespace slvm::ir

@@ -1,5 +1,5 @@
-// Shared by the steps of emission: schedule.cpp makes a list of instructions on virtual registers (grid level, strip
-// blocks, masked copies at merges), allocate.cpp gives the registers planes, emit.cpp encodes.
+// Shared by the steps of emission: schedule.cpp makes a list of instructions on virtual registers (grid
+// level, strip blocks, masked copies at merges), allocate.cpp gives the registers planes, emit.cpp encodes.
 #pragma once
 
 #include "slvm/ir/ir.h"
@@ -24,8 +24,8 @@ struct LowInst {
   uint32_t first_store = 0;
   std::vector<LowOperand> operands;
   SourceRange where;
-  /// Registers that are live from here on though nothing is stored yet: results of a block, which lanes store to in
-  /// different rounds of loops inside it.
+  /// Registers that are live from here on though nothing is stored yet: results of a block, which lanes store
+  /// to in different rounds of loops inside it.
   std::vector<uint32_t> begins;
   bool removed = false; ///< a copy that allocation made superfluous
 };
@@ -44,7 +44,7 @@ struct LowReg {
 struct LowCode {
   std::vector<LowInst> insts;
   std::vector<LowReg> regs;
-  std::vector<uint32_t> sections; ///< indices of instructions
+  std::vector<uint32_t> sections;                   ///< indices of instructions
   std::vector<std::pair<uint32_t, uint32_t>> loops; ///< begin and end instruction of every loop
   uint32_t mask_depth = 0;
 };

@@ -1,18 +1,22 @@
 // The intermediate representation: one shader, typed, in SSA form, with structured regions instead of jumps.
-// Read next: build.h (making it), print.h (its text form), passes/ (what is done to it), emit.h (bytecode from it).
+// Read next: build.h (making it), print.h (its text form), passes/ (what is done to it), emit.h (bytecode
+// from it).
 //
-// A value is defined once, by an instruction or as a region's parameter, and visible from there to the end of its
-// region, nested regions included. What flows out of a region does so as a result of the instruction that owns it:
+// A value is defined once, by an instruction or as a region's parameter, and visible from there to the end of
+// its region, nested regions included. What flows out of a region does so as a result of the instruction that
+// owns it:
 //
-//   %5 = if %4 {              both branches end in a yield (of as many values as there are results), a break or
+//   %5 = if %4 {              both branches end in a yield (of as many values as there are results), a break
+//   or
 //     yield %2                a continue
 //   } else {
 //     yield %3
 //   }
-//   %6, %7 = loop %0, %1 -> (%8, %9) {    %8, %9 hold the carried values: first the arguments, then those of the
-//     ...                                 continue that ended the round; the results are those of the break by which
-//     break 0, %8, %9                     a lane left
-//     continue 0, %10, %11                a loop body ends in a continue or break, a block's in a break
+//   %6, %7 = loop %0, %1 -> (%8, %9) {    %8, %9 hold the carried values: first the arguments, then those of
+//   the
+//     ...                                 continue that ended the round; the results are those of the break
+//     by which break 0, %8, %9                     a lane left continue 0, %10, %11                a loop
+//     body ends in a continue or break, a block's in a break
 //   }
 //
 // break and continue name their loop by how many enclosing loops, blocks and illuminance loops lie between.
@@ -33,20 +37,22 @@ using InstId = uint32_t;
 inline constexpr ValueId kNoValue = ~0u;
 
 enum class Op : uint8_t {
-  kConstant,    ///< index: into constants
-  kSlot,        ///< reads external variable `index`. L, Cl and Ol are those of the enclosing light loop
-  kStore,       ///< args: value. Stores to external variable `index`
-  kCall,        ///< calls shadeop `index`; results: what it stores; args: what it reads, and token-value pairs
-  kRetype,      ///< args: value. The same components under another type (point, vector, normal, color)
-  kArray,       ///< the array `index` as an argument of calls; yields no code
-  kArrayClear,  ///< fills array `index` with zeros
-  kArrayLoad,   ///< args: subscript
-  kArrayStore,  ///< args: subscript, value
-  kIf,          ///< args: condition; two regions
-  kLoop,        ///< args: carried values; one region with as many parameters
-  kBlock,       ///< one region, run once; break leaves it
-  kIlluminance, ///< args: category, position, axis, angle, then carried values; index: 1 when axis and angle count
-  kIlluminate,  ///< args: from, axis, angle, then the results' values for lanes the light does not reach; index as above
+  kConstant,   ///< index: into constants
+  kSlot,       ///< reads external variable `index`. L, Cl and Ol are those of the enclosing light loop
+  kStore,      ///< args: value. Stores to external variable `index`
+  kCall,       ///< calls shadeop `index`; results: what it stores; args: what it reads, and token-value pairs
+  kRetype,     ///< args: value. The same components under another type (point, vector, normal, color)
+  kArray,      ///< the array `index` as an argument of calls; yields no code
+  kArrayClear, ///< fills array `index` with zeros
+  kArrayLoad,  ///< args: subscript
+  kArrayStore, ///< args: subscript, value
+  kIf,         ///< args: condition; two regions
+  kLoop,       ///< args: carried values; one region with as many parameters
+  kBlock,      ///< one region, run once; break leaves it
+  kIlluminance, ///< args: category, position, axis, angle, then carried values; index: 1 when axis and angle
+                ///< count
+  kIlluminate,  ///< args: from, axis, angle, then the results' values for lanes the light does not reach;
+                ///< index as above
   kSolar,       ///< args: axis, angle, then the same
   kYield,       ///< args: results of the enclosing if, illuminate or solar
   kBreak,       ///< index: level; args: results of that loop
@@ -58,9 +64,13 @@ std::string_view op_name(Op);
 constexpr uint32_t fixed_args(Op op) {
   return op == Op::kIlluminance ? 4 : op == Op::kIlluminate ? 3 : op == Op::kSolar ? 2 : 0;
 }
-constexpr bool is_terminator(Op op) { return op == Op::kYield || op == Op::kBreak || op == Op::kContinue; }
+constexpr bool is_terminator(Op op) {
+  return op == Op::kYield || op == Op::kBreak || op == Op::kContinue;
+}
 /// Loops in the sense of break and continue levels.
-constexpr bool is_loop(Op op) { return op == Op::kLoop || op == Op::kBlock || op == Op::kIlluminance; }
+constexpr bool is_loop(Op op) {
+  return op == Op::kLoop || op == Op::kBlock || op == Op::kIlluminance;
+}
 
 struct Region {
   std::vector<ValueId> params;
@@ -77,7 +87,7 @@ struct Inst {
 
 struct ValueInfo {
   Type type = Type::kFloat;
-  int32_t array = -1; ///< kArray: which one
+  int32_t array = -1;   ///< kArray: which one
   bool varying = false; ///< as computed by infer_detail
 };
 
@@ -98,14 +108,14 @@ struct Array {
 struct Module {
   ShaderKind kind = ShaderKind::kSurface;
   std::string name;
-  std::vector<Param> params;  ///< slot and init (index into inits) filled in
+  std::vector<Param> params; ///< slot and init (index into inits) filled in
   std::vector<Slot> slots;
   std::vector<Array> arrays;
   std::vector<Constant> constants;
   std::vector<ValueInfo> values;
-  std::vector<Inst> insts; ///< all, in no order; dead ones may linger
-  Region body;             ///< ends in a yield without arguments
-  std::vector<Region> inits; ///< defaults of parameters: each yields the value (arrays: the elements)
+  std::vector<Inst> insts;        ///< all, in no order; dead ones may linger
+  Region body;                    ///< ends in a yield without arguments
+  std::vector<Region> inits;      ///< defaults of parameters: each yields the value (arrays: the elements)
   std::vector<std::string> files; ///< by the FileId of source ranges
 
   Type type(ValueId v) const { return values[v].type; }
@@ -113,18 +123,18 @@ struct Module {
 };
 
 /// Walks all instructions of a region and its nested regions, outer before inner. f(InstId).
-template <class F>
-void for_each_inst(const Module& m, const Region& region, F&& f) {
+template <class F> void for_each_inst(const Module& m, const Region& region, F&& f) {
   for (InstId id : region.body) {
     f(id);
-    for (const Region& nested : m.insts[id].regions) for_each_inst(m, nested, f);
+    for (const Region& nested : m.insts[id].regions)
+      for_each_inst(m, nested, f);
   }
 }
 /// Calls f on the body and on every init.
-template <class F>
-void for_each_root(Module& m, F&& f) {
+template <class F> void for_each_root(Module& m, F&& f) {
   f(m.body);
-  for (Region& r : m.inits) f(r);
+  for (Region& r : m.inits)
+    f(r);
 }
 
 /// What an instruction does beside computing its results from its arguments.

@@ -31,13 +31,15 @@ private:
   }
   std::string values(const std::vector<ValueId>& list) {
     std::string out;
-    for (ValueId v : list) out += (out.empty() ? "" : ", ") + value(v);
+    for (ValueId v : list)
+      out += (out.empty() ? "" : ", ") + value(v);
     return out;
   }
   std::string typed(const std::vector<ValueId>& list) {
     std::string out;
     for (ValueId v : list)
-      out += fmt::format("{}{}: {}{}", out.empty() ? "" : ", ", value(v), m_.varying(v) ? "varying " : "", type_name(m_.type(v)));
+      out += fmt::format("{}{}: {}{}", out.empty() ? "" : ", ", value(v), m_.varying(v) ? "varying " : "",
+                         type_name(m_.type(v)));
     return out;
   }
 
@@ -48,7 +50,8 @@ private:
       if (c.type == Type::kString) return fmt::format(" \"{}\"", c.text);
       if (c.type == Type::kBool) return c.numbers[0] == 0 ? " false" : " true";
       std::string out;
-      for (float x : c.numbers) out += fmt::format(" {}", x);
+      for (float x : c.numbers)
+        out += fmt::format(" {}", x);
       return out;
     }
     case Op::kSlot:
@@ -75,8 +78,12 @@ private:
       out_ += subject(inst);
       if (!args.empty()) out_ += " " + args;
       for (size_t i = 0; i < inst.regions.size(); ++i) {
-        if (i == 0) out_ += inst.regions[i].params.empty() ? " {\n" : fmt::format(" -> ({}) {{\n", typed(inst.regions[i].params));
-        else out_ += std::string(static_cast<size_t>(indent) * 2, ' ') + "} else {\n";
+        if (i == 0)
+          out_ += inst.regions[i].params.empty()
+                      ? " {\n"
+                      : fmt::format(" -> ({}) {{\n", typed(inst.regions[i].params));
+        else
+          out_ += std::string(static_cast<size_t>(indent) * 2, ' ') + "} else {\n";
         region(inst.regions[i], indent + 1);
       }
       if (!inst.regions.empty()) out_ += std::string(static_cast<size_t>(indent) * 2, ' ') + "}";
@@ -91,6 +98,8 @@ private:
 
 } // namespace
 
-std::string print(const Module& m) { return Printer(m).run(); }
+std::string print(const Module& m) {
+  return Printer(m).run();
+}
 
 } // namespace slvm::ir

@@ -1,9 +1,9 @@
 // From structured IR to a list of instructions on virtual registers.
 //
-// At grid level, runs of instructions that need no whole grid are gathered into strip blocks; uniform instructions
-// go in front of the block being gathered (they depend on nothing in it); a barrier ends it. Merges become registers:
-// one for each result of an if, one shared by parameter and result of a loop, written by masked copies where the
-// branches and rounds end.
+// At grid level, runs of instructions that need no whole grid are gathered into strip blocks; uniform
+// instructions go in front of the block being gathered (they depend on nothing in it); a barrier ends it.
+// Merges become registers: one for each result of an if, one shared by parameter and result of a loop,
+// written by masked copies where the branches and rounds end.
 #include "slvm/ir/emit_internal.h"
 
 #include <algorithm>
@@ -13,9 +13,15 @@
 namespace slvm::ir {
 namespace {
 
-LowOperand word(uint32_t w) { return {LowOperand::Kind::kWord, w}; }
-LowOperand target(uint32_t index) { return {LowOperand::Kind::kTarget, index}; }
-uint16_t code_of(Opcode op) { return static_cast<uint16_t>(op); }
+LowOperand word(uint32_t w) {
+  return {LowOperand::Kind::kWord, w};
+}
+LowOperand target(uint32_t index) {
+  return {LowOperand::Kind::kTarget, index};
+}
+uint16_t code_of(Opcode op) {
+  return static_cast<uint16_t>(op);
+}
 
 class Scheduler {
 public:
@@ -106,25 +112,29 @@ private:
   LowOperand define(ValueId v) { return locations_[v] = new_reg(m_.type(v), m_.varying(v)); }
   LowOperand use(ValueId v) const { return locations_[v]; }
 
-  /// A value that must be uniform. One that only control made varying (a string chosen in a loop that lanes leave one
-  /// by one) is that of the first active lane.
+  /// A value that must be uniform. One that only control made varying (a string chosen in a loop that lanes
+  /// leave one by one) is that of the first active lane.
   LowOperand use_uniform(ValueId v) {
     if (!m_.varying(v) || m_.values[v].array >= 0) return use(v);
     LowOperand reg = new_reg(m_.type(v), false);
-    add(make(code_of(Opcode::k_first), {word(static_cast<uint32_t>(components(m_.type(v)))), reg, use(v)}, 1, 1));
+    add(make(code_of(Opcode::k_first), {word(static_cast<uint32_t>(components(m_.type(v)))), reg, use(v)}, 1,
+             1));
     return reg;
   }
 
   // ---- Instructions. Those of a strip block wait in pending_ until something ends the block.
 
-  LowInst make(uint16_t opcode, std::vector<LowOperand> operands, uint32_t first_store = 0, uint32_t stores = 0) const {
+  LowInst make(uint16_t opcode, std::vector<LowOperand> operands, uint32_t first_store = 0,
+               uint32_t stores = 0) const {
     return {opcode, stores, first_store, std::move(operands), where_, {}, false};
   }
   uint32_t add(LowInst inst) {
     out_.insts.push_back(std::move(inst));
     return static_cast<uint32_t>(out_.insts.size() - 1);
   }
-  uint32_t add(Opcode op, std::vector<LowOperand> operands) { return add(make(code_of(op), std::move(operands))); }
+  uint32_t add(Opcode op, std::vector<LowOperand> operands) {
+    return add(make(code_of(op), std::move(operands)));
+  }
 
   /// Grid level: ends the block being gathered. Inside a strip block there is nothing to end.
   void flush() {
@@ -133,7 +143,8 @@ private:
     uint32_t begin = add(Opcode::k_strip, {target(0), word(0)});
     in_strip_ = true;
     ends_.push_back({});
-    for (const InstAction& action : actions) perform(action);
+    for (const InstAction& action : actions)
+      perform(action);
     in_strip_ = false;
     if (out_.insts.size() == begin + 1) { // all of it was copies of values to themselves
       out_.insts.pop_back();
@@ -156,8 +167,10 @@ private:
   };
   void perform(const InstAction& action) {
     where_ = action.where;
-    if (action.inst != ~0u) emit_inst(action.inst);
-    else copy_now(action, true);
+    if (action.inst != ~0u)
+      emit_inst(action.inst);
+    else
+      copy_now(action, true);
   }
 
   /// Copies that happen at once, of the values of one detail: a source that is also a target is saved first.
@@ -178,15 +191,18 @@ private:
         moves[i].from = saved;
         break;
       }
-    for (const Move& move : moves) copy_one(move.to, move.from, move.type, c.masked && varying);
+    for (const Move& move : moves)
+      copy_one(move.to, move.from, move.type, c.masked && varying);
   }
   void copy_one(LowOperand to, LowOperand from, Type t, bool masked) {
-    add(make(code_of(masked ? Opcode::k_movm : Opcode::k_mov), {word(static_cast<uint32_t>(components(t))), to, from}, 1, 1));
+    add(make(code_of(masked ? Opcode::k_movm : Opcode::k_mov),
+             {word(static_cast<uint32_t>(components(t))), to, from}, 1, 1));
   }
 
-  /// Copies into merge registers. At grid level the varying ones join the strips being gathered, the uniform ones
-  /// come after them: strips gathered so far read the old values.
-  void merge(std::vector<LowOperand> to, std::vector<ValueId> from, const std::vector<ValueId>& results, bool masked) {
+  /// Copies into merge registers. At grid level the varying ones join the strips being gathered, the uniform
+  /// ones come after them: strips gathered so far read the old values.
+  void merge(std::vector<LowOperand> to, std::vector<ValueId> from, const std::vector<ValueId>& results,
+             bool masked) {
     InstAction c{~0u, std::move(to), std::move(from), results, masked, where_};
     if (in_strip_) {
       copy_now(c, true);
@@ -194,7 +210,8 @@ private:
       return;
     }
     bool some_varying = false, some_uniform = false;
-    for (ValueId v : results) (m_.varying(v) ? some_varying : some_uniform) = true;
+    for (ValueId v : results)
+      (m_.varying(v) ? some_varying : some_uniform) = true;
     if (some_varying) pending_.push_back(c);
     if (!some_uniform) return;
     flush();
@@ -260,7 +277,8 @@ private:
   /// Instructions that only name something: no code, in any place.
   bool is_alias(InstId id) const {
     const Inst& inst = m_.insts[id];
-    return inst.op == Op::kConstant || inst.op == Op::kArray || (inst.op == Op::kSlot && !m_.slots[inst.index].stored) ||
+    return inst.op == Op::kConstant || inst.op == Op::kArray ||
+           (inst.op == Op::kSlot && !m_.slots[inst.index].stored) ||
            (inst.op == Op::kRetype && is_located(inst.args[0]));
   }
   bool is_located(ValueId v) const { return locations_[v].kind != LowOperand::Kind::kTarget; }
@@ -289,13 +307,16 @@ private:
       level_[inst.results[0]] = depth();
       LowOperand subscript = use(inst.args[0]);
       auto planes = static_cast<uint32_t>(components(m_.type(inst.results[0])));
-      add(make(code_of(Opcode::k_aload),
-               {word(planes), define(inst.results[0]), word(make_operand(Space::kArray, inst.index)), subscript}, 1, 1));
+      add(make(
+          code_of(Opcode::k_aload),
+          {word(planes), define(inst.results[0]), word(make_operand(Space::kArray, inst.index)), subscript},
+          1, 1));
       break;
     }
     case Op::kArrayStore: {
       auto planes = static_cast<uint32_t>(components(m_.arrays[inst.index].type));
-      add(Opcode::k_astore, {word(planes), word(make_operand(Space::kArray, inst.index)), use(inst.args[0]), use(inst.args[1])});
+      add(Opcode::k_astore, {word(planes), word(make_operand(Space::kArray, inst.index)), use(inst.args[0]),
+                             use(inst.args[1])});
       break;
     }
     case Op::kIf: emit_if(id); break;
@@ -324,21 +345,25 @@ private:
   void emit_store(const Inst& inst) {
     const Slot& slot = m_.slots[inst.index];
     add(make(code_of(slot.varying ? Opcode::k_movm : Opcode::k_mov),
-             {word(static_cast<uint32_t>(components(slot.type))), word(make_operand(Space::kSlot, inst.index)),
+             {word(static_cast<uint32_t>(components(slot.type))),
+              word(make_operand(Space::kSlot, inst.index)),
               slot.varying ? use(inst.args[0]) : use_uniform(inst.args[0])}));
   }
 
   void emit_call(const Inst& inst) {
     const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
     uint32_t level = 0;
-    for (ValueId a : inst.args) level = std::max(level, level_[a]);
+    for (ValueId a : inst.args)
+      level = std::max(level, level_[a]);
     std::vector<LowOperand> reads, operands;
     const Signature& signature = info.signature;
     size_t positional = 0; // arguments before token-value pairs
-    for (int i = 0; i < signature.param_count; ++i) positional += signature.params[static_cast<size_t>(i)].input;
+    for (int i = 0; i < signature.param_count; ++i)
+      positional += signature.params[static_cast<size_t>(i)].input;
     int param = 0;
     for (size_t i = 0; i < inst.args.size(); ++i, ++param) {
-      while (param < signature.param_count && !signature.param(param).input) ++param;
+      while (param < signature.param_count && !signature.param(param).input)
+        ++param;
       bool is_token_value = !signature.variadic() && i >= positional && (i - positional) % 2 == 1;
       bool is_positional = signature.variadic() || i < positional;
       if (is_token_value || (is_positional && signature.param(param).any))
@@ -351,13 +376,15 @@ private:
       ValueId r = inst.results[result++];
       if (any) operands.push_back(word(static_cast<uint32_t>(m_.type(r))));
       // An array that a call stores to is one operand, written and read in place.
-      operands.push_back(m_.values[r].array >= 0 ? word(make_operand(Space::kArray, static_cast<uint32_t>(m_.values[r].array)))
-                                                 : define(r));
+      operands.push_back(m_.values[r].array >= 0
+                             ? word(make_operand(Space::kArray, static_cast<uint32_t>(m_.values[r].array)))
+                             : define(r));
       level_[r] = info.kind == ShadeopKind::kKernel || info.flags & kDerivative ? level : depth();
     };
     if (signature.result != Type::kVoid) store(false);
     for (int i = 0; i < signature.param_count; ++i)
-      if (signature.params[static_cast<size_t>(i)].output) store(signature.params[static_cast<size_t>(i)].any);
+      if (signature.params[static_cast<size_t>(i)].output)
+        store(signature.params[static_cast<size_t>(i)].any);
     auto stores = static_cast<uint32_t>(operands.size());
     operands.insert(operands.end(), reads.begin(), reads.end());
     if (info.flags & kDerivative) {
@@ -367,11 +394,13 @@ private:
     add(make(import(inst.index), std::move(operands), 0, stores));
   }
 
-  /// A derivative reads lanes that are off here: strips that computed its operands must not have been skipped.
+  /// A derivative reads lanes that are off here: strips that computed its operands must not have been
+  /// skipped.
   void keep_strips_below(uint32_t level) {
     for (Level& l : levels_)
       if (l.depth > level)
-        for (uint32_t strip : l.strips) out_.insts[strip].operands[1] = word(1);
+        for (uint32_t strip : l.strips)
+          out_.insts[strip].operands[1] = word(1);
   }
 
   // ---- Regions.
@@ -388,12 +417,14 @@ private:
   };
   void jump_to_end(uint32_t inst, uint32_t operand) { ends_.back().push_back({inst, operand}); }
   void close(uint32_t end) {
-    for (Patch p : ends_.back()) out_.insts[p.inst].operands[p.operand] = target(end);
+    for (Patch p : ends_.back())
+      out_.insts[p.inst].operands[p.operand] = target(end);
     ends_.pop_back();
   }
 
   void emit_region(const Region& region) {
-    for (InstId id : region.body) place(id);
+    for (InstId id : region.body)
+      place(id);
     flush();
   }
 
@@ -457,7 +488,8 @@ private:
     ends_.push_back({});
     emit_region(inst.regions[0]);
     const Region& other = inst.regions[1];
-    if (other.body.size() > 1 || !m_.insts[other.body[0]].args.empty() || m_.insts[other.body[0]].op != Op::kYield) {
+    if (other.body.size() > 1 || !m_.insts[other.body[0]].args.empty() ||
+        m_.insts[other.body[0]].op != Op::kYield) {
       uint32_t middle = add(varying ? Opcode::k_else : Opcode::k_uelse, {target(0)});
       close(middle);
       out_.insts[begin].operands[1] = target(middle);
@@ -481,7 +513,8 @@ private:
     std::vector<ValueId> initial(inst.args.begin() + fixed, inst.args.end());
     if (!params.empty()) merge(regs, initial, inst.results, false);
     flush();
-    for (size_t i = 0; i < params.size(); ++i) locations_[params[i]] = regs[i];
+    for (size_t i = 0; i < params.size(); ++i)
+      locations_[params[i]] = regs[i];
     return regs;
   }
 
@@ -491,12 +524,15 @@ private:
     bool is_block = inst.op == Op::kBlock;
     uint32_t begin = add(is_block ? Opcode::k_block : Opcode::k_loop, {target(0)});
     if (is_block)
-      for (const LowOperand& r : frames_.back().merge) out_.insts[begin].begins.push_back(r.value);
+      for (const LowOperand& r : frames_.back().merge)
+        out_.insts[begin].begins.push_back(r.value);
     open_mask();
-    for (ValueId p : inst.regions[0].params) level_[p] = depth();
+    for (ValueId p : inst.regions[0].params)
+      level_[p] = depth();
     ends_.push_back({});
     emit_region(inst.regions[0]);
-    uint32_t end = is_block ? add(Opcode::k_endblock, {target(0)}) : add(Opcode::k_endloop, {target(begin + 1), target(0)});
+    uint32_t end = is_block ? add(Opcode::k_endblock, {target(0)})
+                            : add(Opcode::k_endloop, {target(begin + 1), target(0)});
     close(end);
     out_.insts[begin].operands[0] = target(end);
     jump_to_end(end, is_block ? 0 : 1);
@@ -509,10 +545,13 @@ private:
     const Inst& inst = m_.insts[id];
     frames_.push_back({&inst, begin_carried(inst)});
     std::vector<LowOperand> fixed{use_uniform(inst.args[0])};
-    for (uint32_t i = 1; i < 4; ++i) fixed.push_back(use(inst.args[i]));
-    uint32_t begin = add(Opcode::k_illuminance, {target(0), word(inst.index), fixed[0], fixed[1], fixed[2], fixed[3]});
+    for (uint32_t i = 1; i < 4; ++i)
+      fixed.push_back(use(inst.args[i]));
+    uint32_t begin =
+        add(Opcode::k_illuminance, {target(0), word(inst.index), fixed[0], fixed[1], fixed[2], fixed[3]});
     open_mask();
-    for (ValueId p : inst.regions[0].params) level_[p] = depth();
+    for (ValueId p : inst.regions[0].params)
+      level_[p] = depth();
     ends_.push_back({});
     emit_region(inst.regions[0]);
     uint32_t end = add(Opcode::k_endilluminance, {target(begin + 1), target(0)});
@@ -532,7 +571,8 @@ private:
     merge(regs, otherwise, inst.results, false);
     flush();
     std::vector<LowOperand> operands{target(0), word(inst.index)};
-    for (uint32_t i = 0; i < fixed_count; ++i) operands.push_back(use(inst.args[i]));
+    for (uint32_t i = 0; i < fixed_count; ++i)
+      operands.push_back(use(inst.args[i]));
     frames_.push_back({&inst, regs});
     bool cone = inst.op == Op::kIlluminate;
     uint32_t begin = add(cone ? Opcode::k_illuminate : Opcode::k_solar, operands);
@@ -560,7 +600,8 @@ private:
     // The end of the body is the next round by itself.
     if (f == frames_.size() - 1 && inst.op == Op::kContinue) return;
     if (f == frames_.size() - 1 && inst.op == Op::kBreak && loop.inst->op == Op::kBlock) return;
-    uint32_t at = add(inst.op == Op::kBreak ? Opcode::k_break : Opcode::k_continue, {word(inst.index + 1), target(0)});
+    uint32_t at =
+        add(inst.op == Op::kBreak ? Opcode::k_break : Opcode::k_continue, {word(inst.index + 1), target(0)});
     jump_to_end(at, 1);
   }
 
@@ -579,13 +620,16 @@ private:
     auto planes = static_cast<uint32_t>(components(init_param_->type));
     flush();
     if (init_param_->elements == 0) {
-      add(make(code_of(Opcode::k_mov), {word(planes), word(make_operand(Space::kSlot, slot)), use(inst.args[0])}));
+      add(make(code_of(Opcode::k_mov),
+               {word(planes), word(make_operand(Space::kSlot, slot)), use(inst.args[0])}));
       return;
     }
     uint32_t array = 0;
-    while (m_.arrays[array].slot != init_param_->slot) ++array;
+    while (m_.arrays[array].slot != init_param_->slot)
+      ++array;
     for (size_t i = 0; i < inst.args.size(); ++i)
-      add(Opcode::k_astore, {word(planes), word(make_operand(Space::kArray, array)), number(static_cast<float>(i)), use(inst.args[i])});
+      add(Opcode::k_astore, {word(planes), word(make_operand(Space::kArray, array)),
+                             number(static_cast<float>(i)), use(inst.args[i])});
   }
 
   const Module& m_;
@@ -606,6 +650,8 @@ private:
 
 } // namespace
 
-LowCode schedule(const Module& m, Program& program) { return Scheduler(m, program).run(); }
+LowCode schedule(const Module& m, Program& program) {
+  return Scheduler(m, program).run();
+}
 
 } // namespace slvm::ir

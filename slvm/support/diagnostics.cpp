@@ -43,7 +43,9 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
       file_order.push_back(d.where.file);
   std::vector<Diagnostic> out = list_;
   std::stable_sort(out.begin(), out.end(), [&](const Diagnostic& a, const Diagnostic& b) {
-    auto key = [&](const Diagnostic& d) { return std::tuple(rank(d.where.file), d.where.line, d.where.column); };
+    auto key = [&](const Diagnostic& d) {
+      return std::tuple(rank(d.where.file), d.where.line, d.where.column);
+    };
     return key(a) < key(b);
   });
   return out;
@@ -57,18 +59,22 @@ struct Colours {
 constexpr Colours kAnsi = {"\033[1m", "\033[1;31m", "\033[1;35m", "\033[1;36m", "\033[1;32m", "\033[0m"};
 constexpr Colours kPlain = {"", "", "", "", "", ""};
 
-// The source line and a caret run under the range. Tabs count one column in the caret line too, so they are copied.
+// The source line and a caret run under the range. Tabs count one column in the caret line too, so they are
+// copied.
 void append_source_line(std::string& out, SourceRange r, const SourceManager& sources, const Colours& c) {
   std::string_view line = sources.line(r.file, r.line);
   if (line.empty()) return;
   std::string number = fmt::format("{:>5} | ", r.line);
   out += number;
-  for (char ch : line) out += static_cast<unsigned char>(ch) < 0x20 && ch != '\t' ? ' ' : ch;
+  for (char ch : line)
+    out += static_cast<unsigned char>(ch) < 0x20 && ch != '\t' ? ' ' : ch;
   out += '\n';
   out += std::string(number.size() - 2, ' ') + "| ";
   size_t column = r.column == 0 ? 0 : r.column - 1;
-  for (size_t i = 0; i < column && i < line.size(); ++i) out += line[i] == '\t' ? '\t' : ' ';
-  size_t last = std::min<size_t>(r.end > r.column ? r.end - 1 : column + 1, std::max(line.size(), column + 1));
+  for (size_t i = 0; i < column && i < line.size(); ++i)
+    out += line[i] == '\t' ? '\t' : ' ';
+  size_t last =
+      std::min<size_t>(r.end > r.column ? r.end - 1 : column + 1, std::max(line.size(), column + 1));
   out += c.green;
   out += '^';
   if (last > column + 1) out.append(last - column - 1, '~');
@@ -94,8 +100,8 @@ std::string format_diagnostics(const Diagnostics& diags, const SourceManager& so
   for (const Diagnostic& d : diags.sorted()) {
     append_location(out, d.where, sources, c);
     bool error = d.severity == Severity::kError;
-    out += fmt::format("{}{}:{} {}{}{}", error ? c.red : c.magenta, error ? "error" : "warning", c.off, c.bold,
-                       d.text, c.off);
+    out += fmt::format("{}{}:{} {}{}{}", error ? c.red : c.magenta, error ? "error" : "warning", c.off,
+                       c.bold, d.text, c.off);
     if (!d.warning_name.empty()) out += fmt::format(" [-W{}]", d.warning_name);
     out += '\n';
     if (d.where.valid()) append_source_line(out, d.where, sources, c);
@@ -115,10 +121,12 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   size_t best_distance = 3; // at most 2 edits
   std::vector<size_t> row;
   for (std::string_view candidate : candidates) {
-    size_t gap = candidate.size() > name.size() ? candidate.size() - name.size() : name.size() - candidate.size();
+    size_t gap =
+        candidate.size() > name.size() ? candidate.size() - name.size() : name.size() - candidate.size();
     if (gap >= best_distance) continue;
     row.resize(candidate.size() + 1);
-    for (size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (size_t j = 0; j < row.size(); ++j)
+      row[j] = j;
     for (size_t i = 1; i <= name.size(); ++i) {
       size_t diagonal = row[0];
       row[0] = i;

@@ -1,5 +1,5 @@
-// Errors, warnings and notes: collected while a compiler, loader or parser runs, printed once, in source order.
-// PUBLIC. Libraries report into a Diagnostics; only mains print.
+// Errors, warnings and notes: collected while a compiler, loader or parser runs, printed once, in source
+// order. PUBLIC. Libraries report into a Diagnostics; only mains print.
 //
 //   plastic.sl:12:15: error: no 'smoothstep' takes (color, float, float)
 //      12 |     float w = smoothstep(Cs, 0.2, 0.8);
@@ -42,7 +42,8 @@ public:
   /// Names of warnings switched off (-Wno-NAME).
   std::set<std::string, std::less<>> disabled;
 
-  /// Returns the diagnostic just added, so that notes can be attached; the reference is valid until the next call.
+  /// Returns the diagnostic just added, so that notes can be attached; the reference is valid until the next
+  /// call.
   Diagnostic& error(SourceRange where, std::string text);
   Diagnostic& warning(SourceRange where, std::string_view name, std::string text);
 
@@ -64,7 +65,8 @@ private:
 /// The text form shown above, ready for stderr. `colour`: ANSI colours for a terminal.
 std::string format_diagnostics(const Diagnostics&, const SourceManager&, bool colour = false);
 
-/// The candidate nearest to `name` by edit distance (at most 2, and less than the name's length); empty if none.
+/// The candidate nearest to `name` by edit distance (at most 2, and less than the name's length); empty if
+/// none.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> candidates);
 
 } // namespace slvm

@@ -1,5 +1,5 @@
-// Result<T>: a value, or the text of why there is none. PUBLIC. For loaders and other calls with one possible error;
-// anything with positions or several messages takes a Diagnostics& instead.
+// Result<T>: a value, or the text of why there is none. PUBLIC. For loaders and other calls with one possible
+// error; anything with positions or several messages takes a Diagnostics& instead.
 #pragma once
 
 #include <cassert>
@@ -13,8 +13,7 @@ struct Error {
   std::string text;
 };
 
-template <class T>
-class [[nodiscard]] Result {
+template <class T> class [[nodiscard]] Result {
 public:
   Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}

@@ -11,7 +11,9 @@ SourceRange join(SourceRange first, SourceRange last) {
   return first;
 }
 
-SourceManager::SourceManager() { files_.emplace_back(); }
+SourceManager::SourceManager() {
+  files_.emplace_back();
+}
 
 FileId SourceManager::add(std::string name, std::string text) {
   File file{std::move(name), std::move(text), {}};
@@ -45,7 +47,8 @@ std::string_view SourceManager::line(FileId id, uint32_t line) const {
   size_t begin = file.line_starts[line - 1];
   size_t end = line < file.line_starts.size() ? file.line_starts[line] : file.text.size();
   std::string_view text = std::string_view(file.text).substr(begin, end - begin);
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
+  while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
+    text.remove_suffix(1);
   return text;
 }
 

@@ -5,7 +5,9 @@
 
 namespace slvm {
 
-StringPool::StringPool() { intern(""); }
+StringPool::StringPool() {
+  intern("");
+}
 
 uint32_t StringPool::intern(std::string_view text) {
   {

@@ -1,5 +1,5 @@
-// The strings of running shaders, interned: equal texts have equal ids, so that a string fits into a register plane
-// and comparison is comparison of bits. PUBLIC. Thread-safe; ids and texts live as long as the pool.
+// The strings of running shaders, interned: equal texts have equal ids, so that a string fits into a register
+// plane and comparison is comparison of bits. PUBLIC. Thread-safe; ids and texts live as long as the pool.
 #pragma once
 
 #include <cstdint>

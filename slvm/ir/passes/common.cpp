@@ -1,5 +1,5 @@
-// Common subexpressions: an instruction equal to one that is visible from it gives the same value. Instructions that
-// read memory or state are merged only while nothing was written in between.
+// Common subexpressions: an instruction equal to one that is visible from it gives the same value.
+// Instructions that read memory or state are merged only while nothing was written in between.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -30,7 +30,8 @@ private:
   using Key = std::tuple<Op, uint32_t, Type, uint64_t, std::vector<ValueId>>;
 
   ValueId resolve(ValueId v) const {
-    while (v < replacement_.size() && replacement_[v] != kNoValue) v = replacement_[v];
+    while (v < replacement_.size() && replacement_[v] != kNoValue)
+      v = replacement_[v];
     return v;
   }
 
@@ -45,12 +46,15 @@ private:
     std::set<InstId> dead;
     for (InstId id : region.body) {
       Inst& inst = m_.insts[id];
-      for (ValueId& a : inst.args) a = resolve(a);
+      for (ValueId& a : inst.args)
+        a = resolve(a);
       Effect effect = effect_of(m_, inst);
       if (!inst.regions.empty()) {
-        // A region may run after writes of its own later part (a loop's next round), and lights change on the way.
+        // A region may run after writes of its own later part (a loop's next round), and lights change on the
+        // way.
         if (effect == Effect::kWrites || is_loop(inst.op)) ++epoch_;
-        for (Region& r : inst.regions) visit(r);
+        for (Region& r : inst.regions)
+          visit(r);
         if (effect == Effect::kWrites || is_loop(inst.op)) ++epoch_;
         continue;
       }
@@ -66,11 +70,13 @@ private:
         added.push_back(std::move(key));
         continue;
       }
-      for (size_t i = 0; i < inst.results.size(); ++i) replacement_[inst.results[i]] = m_.insts[it->second].results[i];
+      for (size_t i = 0; i < inst.results.size(); ++i)
+        replacement_[inst.results[i]] = m_.insts[it->second].results[i];
       changed_ = true;
       dead.insert(id);
     }
-    for (const Key& key : added) available_.erase(key);
+    for (const Key& key : added)
+      available_.erase(key);
     std::erase_if(region.body, [&](InstId id) { return dead.contains(id); });
   }
 
@@ -83,6 +89,8 @@ private:
 
 } // namespace
 
-bool merge_common(Module& m) { return CommonSubexpressions(m).run(); }
+bool merge_common(Module& m) {
+  return CommonSubexpressions(m).run();
+}
 
 } // namespace slvm::ir

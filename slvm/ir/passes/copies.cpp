@@ -1,5 +1,5 @@
-// Copy propagation. In SSA form copies are merges that merge nothing: lowering carries every variable through every
-// loop and block, and this pass drops those that did not change.
+// Copy propagation. In SSA form copies are merges that merge nothing: lowering carries every variable through
+// every loop and block, and this pass drops those that did not change.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -24,7 +24,8 @@ public:
 
 private:
   ValueId resolve(ValueId v) const {
-    while (v < replacement_.size() && replacement_[v] != kNoValue) v = replacement_[v];
+    while (v < replacement_.size() && replacement_[v] != kNoValue)
+      v = replacement_[v];
     return v;
   }
   void replace(ValueId v, ValueId by) {
@@ -53,17 +54,19 @@ private:
         loops_.pop_back();
         simplify_loop(id, exits);
       } else {
-        for (Region& r : inst.regions) visit(r);
-        if (inst.op == Op::kIf) simplify_if(id);
-        else if (inst.op == Op::kIlluminate || inst.op == Op::kSolar) simplify_conditional(id);
+        for (Region& r : inst.regions)
+          visit(r);
+        if (inst.op == Op::kIf)
+          simplify_if(id);
+        else if (inst.op == Op::kIlluminate || inst.op == Op::kSolar)
+          simplify_conditional(id);
       }
     }
   }
 
   InstId terminator(const Region& r) const { return r.body.back(); }
 
-  template <class Keep>
-  static void filter(std::vector<ValueId>& list, size_t offset, Keep&& keep) {
+  template <class Keep> static void filter(std::vector<ValueId>& list, size_t offset, Keep&& keep) {
     size_t out = offset;
     for (size_t i = offset; i < list.size(); ++i)
       if (keep(i - offset)) list[out++] = list[i];
@@ -83,7 +86,8 @@ private:
     });
   }
 
-  // illuminate and solar: a result is a copy when the yielded value is the one lanes have that the light misses.
+  // illuminate and solar: a result is a copy when the yielded value is the one lanes have that the light
+  // misses.
   void simplify_conditional(InstId id) {
     Inst& inst = m_.insts[id];
     uint32_t fixed = fixed_args(inst.op);
@@ -96,9 +100,9 @@ private:
     filter(m_.insts[id].args, fixed, [&](size_t i) { return keep[i]; });
   }
 
-  // Removes results for which same(i) gives a value, from the instruction and from the terminators that feed them.
-  template <class Same>
-  std::vector<bool> drop(InstId id, const std::vector<InstId>& feeders, Same&& same) {
+  // Removes results for which same(i) gives a value, from the instruction and from the terminators that feed
+  // them.
+  template <class Same> std::vector<bool> drop(InstId id, const std::vector<InstId>& feeders, Same&& same) {
     Inst& inst = m_.insts[id];
     std::vector<bool> keep(inst.results.size(), true);
     for (size_t i = 0; i < inst.results.size(); ++i) {
@@ -109,7 +113,8 @@ private:
     }
     auto kept = [&](size_t i) { return keep[i]; };
     filter(inst.results, 0, kept);
-    for (InstId feeder : feeders) filter(m_.insts[feeder].args, 0, kept);
+    for (InstId feeder : feeders)
+      filter(m_.insts[feeder].args, 0, kept);
     return keep;
   }
 
@@ -121,7 +126,8 @@ private:
       simplify_block(id, exits);
       return;
     }
-    // A carried value is a copy of its initial value when every round passes on the parameter itself (or that value).
+    // A carried value is a copy of its initial value when every round passes on the parameter itself (or that
+    // value).
     size_t n = body.params.size();
     std::vector<bool> keep(n, true);
     for (size_t i = 0; i < n; ++i) {
@@ -142,18 +148,23 @@ private:
     filter(inst.args, fixed, kept);
     filter(inst.results, 0, kept);
     filter(body.params, 0, kept);
-    for (InstId t : exits.continues) filter(m_.insts[t].args, 0, kept);
-    for (InstId t : exits.breaks) filter(m_.insts[t].args, 0, kept);
+    for (InstId t : exits.continues)
+      filter(m_.insts[t].args, 0, kept);
+    for (InstId t : exits.breaks)
+      filter(m_.insts[t].args, 0, kept);
   }
 
   // A block's result is a copy when all breaks agree on a value that is visible outside the block.
   void simplify_block(InstId id, const LoopExits& exits) {
     std::map<ValueId, bool> inside;
     auto note = [&](auto&& self, const Region& r) -> void {
-      for (ValueId p : r.params) inside[p] = true;
+      for (ValueId p : r.params)
+        inside[p] = true;
       for (InstId nested : r.body) {
-        for (ValueId v : m_.insts[nested].results) inside[v] = true;
-        for (const Region& deeper : m_.insts[nested].regions) self(self, deeper);
+        for (ValueId v : m_.insts[nested].results)
+          inside[v] = true;
+        for (const Region& deeper : m_.insts[nested].regions)
+          self(self, deeper);
       }
     };
     if (!m_.insts[id].results.empty()) note(note, m_.insts[id].regions[0]);
@@ -176,6 +187,8 @@ private:
 
 } // namespace
 
-bool propagate_copies(Module& m) { return CopyPropagation(m).run(); }
+bool propagate_copies(Module& m) {
+  return CopyPropagation(m).run();
+}
 
 } // namespace slvm::ir

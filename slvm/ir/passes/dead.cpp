@@ -1,5 +1,5 @@
-// Dead code: marks what is needed by something that must happen, sweeps the rest. Works down to single results and
-// carried values: a counter that only counts itself is not needed.
+// Dead code: marks what is needed by something that must happen, sweeps the rest. Works down to single
+// results and carried values: a counter that only counts itself is not needed.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -28,7 +28,8 @@ private:
   static constexpr InstId kNone = ~0u;
   struct Info {
     InstId parent = kNone; // the instruction whose region holds this one
-    std::vector<InstId> feeders; // yields, breaks and continues that give this instruction its results and parameters
+    std::vector<InstId>
+        feeders; // yields, breaks and continues that give this instruction its results and parameters
     bool live = false;
   };
   struct Definition {
@@ -42,32 +43,45 @@ private:
     for (InstId id : region.body) {
       Inst& inst = m_.insts[id];
       info_[id].parent = owner;
-      for (size_t i = 0; i < inst.results.size(); ++i) definition_[inst.results[i]] = {id, static_cast<uint32_t>(i)};
-      if (inst.op == Op::kBreak || inst.op == Op::kContinue) info_[loops_[loops_.size() - 1 - inst.index]].feeders.push_back(id);
+      for (size_t i = 0; i < inst.results.size(); ++i)
+        definition_[inst.results[i]] = {id, static_cast<uint32_t>(i)};
+      if (inst.op == Op::kBreak || inst.op == Op::kContinue)
+        info_[loops_[loops_.size() - 1 - inst.index]].feeders.push_back(id);
       if (inst.op == Op::kYield && owner != kNone) info_[owner].feeders.push_back(id);
       if (is_loop(inst.op)) loops_.push_back(id);
-      for (Region& r : inst.regions) index(r, id);
+      for (Region& r : inst.regions)
+        index(r, id);
       if (is_loop(inst.op)) loops_.pop_back();
     }
   }
 
-  // What must happen: effects that reach outside, and stores to arrays that something reads (marked as loads appear).
+  // What must happen: effects that reach outside, and stores to arrays that something reads (marked as loads
+  // appear).
   void mark_roots(Region& region) {
     for (InstId id : region.body) {
       Inst& inst = m_.insts[id];
-      bool local_array = (inst.op == Op::kArrayStore || inst.op == Op::kArrayClear) && m_.arrays[inst.index].slot < 0;
-      if (local_array) array_writes_.push_back(id);
-      else if (inst.op == Op::kYield && info_[id].parent != kNone) ; // only for the results that are needed
-      else if (inst.op == Op::kYield) mark_args(inst); // the value of an init
-      else if ((inst.op == Op::kBreak || inst.op == Op::kContinue)) ; // alive with the loop it belongs to
-      else if (inst.regions.empty() && effect_of(m_, inst) == Effect::kWrites) mark(id);
-      else if (inst.op == Op::kIlluminate || inst.op == Op::kSolar) mark(id);
-      for (Region& r : inst.regions) mark_roots(r);
+      bool local_array =
+          (inst.op == Op::kArrayStore || inst.op == Op::kArrayClear) && m_.arrays[inst.index].slot < 0;
+      if (local_array)
+        array_writes_.push_back(id);
+      else if (inst.op == Op::kYield && info_[id].parent != kNone)
+        ; // only for the results that are needed
+      else if (inst.op == Op::kYield)
+        mark_args(inst); // the value of an init
+      else if ((inst.op == Op::kBreak || inst.op == Op::kContinue))
+        ; // alive with the loop it belongs to
+      else if (inst.regions.empty() && effect_of(m_, inst) == Effect::kWrites)
+        mark(id);
+      else if (inst.op == Op::kIlluminate || inst.op == Op::kSolar)
+        mark(id);
+      for (Region& r : inst.regions)
+        mark_roots(r);
     }
   }
 
   void mark_args(const Inst& inst) {
-    for (ValueId a : inst.args) need(a);
+    for (ValueId a : inst.args)
+      need(a);
   }
 
   void need(ValueId v) {
@@ -88,10 +102,12 @@ private:
       return;
     }
     uint32_t fixed = inst.op == Op::kIf ? 1 : fixed_args(inst.op);
-    for (uint32_t i = 0; i < fixed; ++i) need(inst.args[i]);
+    for (uint32_t i = 0; i < fixed; ++i)
+      need(inst.args[i]);
     // How lanes leave a loop that runs decides what runs after it and how often.
     if (is_loop(inst.op))
-      for (InstId t : info_[id].feeders) mark_exit(t);
+      for (InstId t : info_[id].feeders)
+        mark_exit(t);
   }
 
   void mark_exit(InstId terminator) {
@@ -127,7 +143,8 @@ private:
     mark(d.inst);
     Inst& inst = m_.insts[d.inst];
     if (inst.regions.empty()) return;
-    // A result or parameter of a region: needed from every terminator that feeds it, and from the initial values.
+    // A result or parameter of a region: needed from every terminator that feeds it, and from the initial
+    // values.
     for (InstId t : info_[d.inst].feeders) {
       need(m_.insts[t].args[d.position]);
       mark_exit(t);
@@ -152,7 +169,8 @@ private:
       Inst& inst = m_.insts[id];
       if (inst.regions.empty()) continue;
       changed |= prune(id);
-      for (Region& r : inst.regions) changed |= sweep(r);
+      for (Region& r : inst.regions)
+        changed |= sweep(r);
     }
     return changed;
   }
@@ -162,7 +180,8 @@ private:
     Inst& inst = m_.insts[id];
     std::vector<bool> keep(inst.results.size());
     bool all = true;
-    for (size_t i = 0; i < keep.size(); ++i) all &= keep[i] = needed_[inst.results[i]];
+    for (size_t i = 0; i < keep.size(); ++i)
+      all &= keep[i] = needed_[inst.results[i]];
     if (all) return false;
     auto filter = [&](std::vector<ValueId>& list, size_t offset) {
       size_t out = offset;
@@ -173,7 +192,8 @@ private:
     filter(inst.results, 0);
     if (inst.op != Op::kIf && inst.op != Op::kBlock) filter(inst.args, fixed_args(inst.op));
     if (!inst.regions[0].params.empty()) filter(inst.regions[0].params, 0);
-    for (InstId t : info_[id].feeders) filter(m_.insts[t].args, 0);
+    for (InstId t : info_[id].feeders)
+      filter(m_.insts[t].args, 0);
     return true;
   }
 
@@ -188,6 +208,8 @@ private:
 
 } // namespace
 
-bool remove_dead(Module& m) { return DeadCode(m).run(); }
+bool remove_dead(Module& m) {
+  return DeadCode(m).run();
+}
 
 } // namespace slvm::ir

@@ -1,6 +1,6 @@
-// Uniform or varying: an optimistic fixpoint. Everything starts uniform; a value becomes varying when it depends on a
-// varying one, by data, or by control: merges after a varying condition, and whatever a loop carries that lanes leave
-// or continue at different rounds.
+// Uniform or varying: an optimistic fixpoint. Everything starts uniform; a value becomes varying when it
+// depends on a varying one, by data, or by control: merges after a varying condition, and whatever a loop
+// carries that lanes leave or continue at different rounds.
 #include "slvm/ir/passes/passes.h"
 
 namespace slvm::ir {
@@ -11,8 +11,10 @@ public:
   explicit DetailInference(Module& m) : m_(m) {}
 
   void run() {
-    for (ValueInfo& v : m_.values) v.varying = false;
-    for (Array& a : m_.arrays) a.varying = a.slot >= 0 && m_.slots[static_cast<size_t>(a.slot)].varying;
+    for (ValueInfo& v : m_.values)
+      v.varying = false;
+    for (Array& a : m_.arrays)
+      a.varying = a.slot >= 0 && m_.slots[static_cast<size_t>(a.slot)].varying;
     divergent_.assign(m_.insts.size(), false);
     do {
       changed_ = false;
@@ -48,7 +50,8 @@ private:
   }
 
   void visit(Region& region) {
-    for (InstId id : region.body) visit_inst(id);
+    for (InstId id : region.body)
+      visit_inst(id);
   }
 
   void visit_inst(InstId id) {
@@ -90,11 +93,13 @@ private:
   void visit_call(const Inst& inst) {
     const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
     bool varying = info.flags & kHiddenVarying;
-    for (ValueId a : inst.args) varying |= m_.varying(a);
+    for (ValueId a : inst.args)
+      varying |= m_.varying(a);
     if (!varying) return;
     for (size_t i = 0; i < inst.results.size(); ++i) {
       bool is_result = i == 0 && info.signature.result != Type::kVoid;
-      bool uniform = (is_result && info.signature.uniform_result) || m_.type(inst.results[i]) == Type::kString;
+      bool uniform =
+          (is_result && info.signature.uniform_result) || m_.type(inst.results[i]) == Type::kString;
       if (!uniform) make_varying(inst.results[i]);
     }
   }
@@ -120,7 +125,8 @@ private:
     }
     if (varying) {
       make_divergent(target);
-      for (InstId loop : passed) make_divergent(loop);
+      for (InstId loop : passed)
+        make_divergent(loop);
     }
     const Inst& loop = m_.insts[target];
     for (size_t i = 0; i < inst.args.size(); ++i) {
@@ -132,7 +138,8 @@ private:
   void visit_yield(const Inst& inst) {
     if (frames_.empty()) return;
     const Inst& owner = m_.insts[frames_.back().inst];
-    for (size_t i = 0; i < inst.args.size(); ++i) flow(inst.args[i], owner.results[i]);
+    for (size_t i = 0; i < inst.args.size(); ++i)
+      flow(inst.args[i], owner.results[i]);
   }
 
   void visit_region_inst(InstId id) {
@@ -140,10 +147,12 @@ private:
     bool condition = inst.op == Op::kIf && m_.varying(inst.args[0]);
     bool by_light = inst.op == Op::kIlluminance || inst.op == Op::kIlluminate || inst.op == Op::kSolar;
     frames_.push_back({id, condition || by_light});
-    for (Region& r : inst.regions) visit(r);
+    for (Region& r : inst.regions)
+      visit(r);
     frames_.pop_back();
     if (condition || by_light || divergent_[id])
-      for (ValueId v : inst.results) make_varying(v);
+      for (ValueId v : inst.results)
+        make_varying(v);
     uint32_t fixed = fixed_args(inst.op);
     if (inst.op == Op::kLoop || inst.op == Op::kIlluminance) {
       const std::vector<ValueId>& params = inst.regions[0].params;
@@ -155,7 +164,8 @@ private:
         flow(inst.results[i], params[i]);
       }
     } else if (inst.op != Op::kIf && inst.op != Op::kBlock) {
-      for (size_t i = 0; i < inst.results.size(); ++i) flow(inst.args[fixed + i], inst.results[i]);
+      for (size_t i = 0; i < inst.results.size(); ++i)
+        flow(inst.args[fixed + i], inst.results[i]);
     }
   }
 
@@ -167,6 +177,8 @@ private:
 
 } // namespace
 
-void infer_detail(Module& m) { DetailInference(m).run(); }
+void infer_detail(Module& m) {
+  DetailInference(m).run();
+}
 
 } // namespace slvm::ir

@@ -1,4 +1,5 @@
-// Constant folding: calls whose arguments are constants, identities with one constant, ifs whose condition is one.
+// Constant folding: calls whose arguments are constants, identities with one constant, ifs whose condition is
+// one.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -24,9 +25,11 @@ public:
 
 private:
   const Constant* constant(ValueId v) const {
-    while (v < replacement_.size() && replacement_[v] != kNoValue) v = replacement_[v];
-    return v < constant_of_.size() && constant_of_[v] >= 0 ? &m_.constants[static_cast<size_t>(constant_of_[v])]
-                                                           : nullptr;
+    while (v < replacement_.size() && replacement_[v] != kNoValue)
+      v = replacement_[v];
+    return v < constant_of_.size() && constant_of_[v] >= 0
+               ? &m_.constants[static_cast<size_t>(constant_of_[v])]
+               : nullptr;
   }
 
   // Of a bool: -1 unknown, else 0 or 1.
@@ -76,7 +79,8 @@ private:
     Type t = m_.type(inst.results[0]);
     ValueId a = inst.args[0], b = inst.args[1];
     if (t == Type::kMatrix) return false;
-    bool right = (name == "operator*" || name == "operator/") ? is_number(b, 1) : name == "operator-" && is_number(b, 0);
+    bool right = (name == "operator*" || name == "operator/") ? is_number(b, 1)
+                                                              : name == "operator-" && is_number(b, 0);
     if (right && m_.type(a) == t) return become_value(id, a), true;
     if (name == "operator*" && is_number(a, 1) && m_.type(b) == t) return become_value(id, b), true;
     return false;
@@ -112,13 +116,15 @@ private:
       if (!args.back()) return;
     }
     std::vector<Constant> results;
-    if (evaluator_->evaluate(static_cast<ShadeopId>(inst.index), args, results)) become_constant(id, results[0]);
+    if (evaluator_->evaluate(static_cast<ShadeopId>(inst.index), args, results))
+      become_constant(id, results[0]);
   }
 
   // Puts the body of the branch taken in place of the if; its yield's arguments replace the if's results.
   void fold_if(InstId id, std::vector<InstId>& out) {
     int condition = truth(m_.insts[id].args[0]);
-    for (Region& r : m_.insts[id].regions) fold_region(r);
+    for (Region& r : m_.insts[id].regions)
+      fold_region(r);
     if (condition < 0) {
       out.push_back(id);
       return;
@@ -141,9 +147,12 @@ private:
       // A branch taken for certain may have ended in a break: nothing after it runs.
       if (!out.empty() && is_terminator(m_.insts[out.back()].op)) break;
       for (ValueId& a : m_.insts[id].args)
-        while (a < replacement_.size() && replacement_[a] != kNoValue) a = replacement_[a];
+        while (a < replacement_.size() && replacement_[a] != kNoValue)
+          a = replacement_[a];
       switch (m_.insts[id].op) {
-      case Op::kConstant: constant_of_[m_.insts[id].results[0]] = static_cast<int32_t>(m_.insts[id].index); break;
+      case Op::kConstant:
+        constant_of_[m_.insts[id].results[0]] = static_cast<int32_t>(m_.insts[id].index);
+        break;
       case Op::kRetype:
         if (const Constant* c = constant(m_.insts[id].args[0]))
           become_constant(id, {m_.type(m_.insts[id].results[0]), c->numbers, c->text});
@@ -171,6 +180,8 @@ private:
 
 } // namespace
 
-bool fold_constants(Module& m, const ConstantEvaluator* evaluator) { return Folder(m, evaluator).run(); }
+bool fold_constants(Module& m, const ConstantEvaluator* evaluator) {
+  return Folder(m, evaluator).run();
+}
 
 } // namespace slvm::ir

@@ -1,5 +1,5 @@
-// Loop invariants: a computation in a loop whose arguments come from outside is done once, before the loop. Kernels
-// compute all lanes without harm, so that this is right even for loops that no lane enters.
+// Loop invariants: a computation in a loop whose arguments come from outside is done once, before the loop.
+// Kernels compute all lanes without harm, so that this is right even for loops that no lane enters.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -24,7 +24,8 @@ private:
       Global g = m_.slots[inst.index].parameter ? Global::kCount : find_global(m_.slots[inst.index].name);
       if (g == Global::kL || g == Global::kCl || g == Global::kOl) return false;
     }
-    if (inst.op == Op::kCall && shadeop(static_cast<ShadeopId>(inst.index)).kind != ShadeopKind::kKernel) return false;
+    if (inst.op == Op::kCall && shadeop(static_cast<ShadeopId>(inst.index)).kind != ShadeopKind::kKernel)
+      return false;
     for (ValueId a : inst.args)
       if (depth_[a] >= loop_depth) return false;
     return true;
@@ -32,11 +33,13 @@ private:
 
   // depth: loops around the region. Returns what moves out in front of the loop that owns the region.
   std::vector<InstId> visit(Region& region, uint32_t depth) {
-    for (ValueId p : region.params) depth_[p] = depth;
+    for (ValueId p : region.params)
+      depth_[p] = depth;
     std::vector<InstId> body, out;
     for (InstId id : region.body) {
       if (depth > 0 && invariant(m_.insts[id], depth)) {
-        for (ValueId v : m_.insts[id].results) depth_[v] = depth - 1;
+        for (ValueId v : m_.insts[id].results)
+          depth_[v] = depth - 1;
         out.push_back(id);
         changed_ = true;
         continue;
@@ -50,14 +53,16 @@ private:
             continue;
           }
           if (depth > 0 && invariant(m_.insts[moved], depth)) {
-            for (ValueId v : m_.insts[moved].results) depth_[v] = depth - 1;
+            for (ValueId v : m_.insts[moved].results)
+              depth_[v] = depth - 1;
             out.push_back(moved);
           } else {
             body.push_back(moved);
           }
         }
       }
-      for (ValueId v : m_.insts[id].results) depth_[v] = depth;
+      for (ValueId v : m_.insts[id].results)
+        depth_[v] = depth;
       body.push_back(id);
     }
     region.body = std::move(body);
@@ -71,6 +76,8 @@ private:
 
 } // namespace
 
-bool hoist_invariants(Module& m) { return Hoist(m).run(); }
+bool hoist_invariants(Module& m) {
+  return Hoist(m).run();
+}
 
 } // namespace slvm::ir

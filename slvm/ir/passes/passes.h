@@ -8,20 +8,21 @@
 
 namespace slvm::ir {
 
-/// Computes shadeops of constants. slc and the optimiser know no kernels: whoever has them passes this in, so that
-/// constant folding and execution run the same code and agree to the last bit.
+/// Computes shadeops of constants. slc and the optimiser know no kernels: whoever has them passes this in, so
+/// that constant folding and execution run the same code and agree to the last bit.
 class ConstantEvaluator {
 public:
   virtual ~ConstantEvaluator() = default;
   /// Evaluates a pure shadeop for constant arguments. False: cannot; results are then untouched.
-  virtual bool evaluate(ShadeopId id, std::span<const Constant* const> args, std::vector<Constant>& results) const = 0;
+  virtual bool evaluate(ShadeopId id, std::span<const Constant* const> args,
+                        std::vector<Constant>& results) const = 0;
 };
 
-/// Replaces calls with constant arguments by their results, and ifs with constant conditions by the branch taken.
-/// `evaluator` may be null: then only the structure is folded.
+/// Replaces calls with constant arguments by their results, and ifs with constant conditions by the branch
+/// taken. `evaluator` may be null: then only the structure is folded.
 bool fold_constants(Module&, const ConstantEvaluator* evaluator);
-/// Removes merges that merge nothing: results and carried values that are the same on every way, retypes to the type
-/// a value has.
+/// Removes merges that merge nothing: results and carried values that are the same on every way, retypes to
+/// the type a value has.
 bool propagate_copies(Module&);
 /// Merges equal computations where one is visible from the other.
 bool merge_common(Module&);
@@ -34,8 +35,8 @@ bool drop_idle_stores(Module&);
 /// Turns small ifs without effects into selections of both sides' values.
 bool select_small_ifs(Module&);
 
-/// Decides which values and arrays are uniform: those that depend on nothing varying, by data or by control. Fills
-/// ValueInfo::varying and Array::varying.
+/// Decides which values and arrays are uniform: those that depend on nothing varying, by data or by control.
+/// Fills ValueInfo::varying and Array::varying.
 void infer_detail(Module&);
 
 /// 0: nothing; 1: fold, copies, common, dead; 2: all, until nothing changes (at most a few rounds).

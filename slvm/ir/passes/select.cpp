@@ -1,5 +1,5 @@
-// If-conversion: where both branches are short and pure, computing both and choosing by lane is cheaper than two
-// passes under masks.
+// If-conversion: where both branches are short and pure, computing both and choosing by lane is cheaper than
+// two passes under masks.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -9,8 +9,8 @@
 namespace slvm::ir {
 namespace {
 
-// Instructions in both branches together, up to which selection pays. Measured with tests/bench (divergent): a masked
-// branch costs about four instructions of stack and copies.
+// Instructions in both branches together, up to which selection pays. Measured with tests/bench (divergent):
+// a masked branch costs about four instructions of stack and copies.
 constexpr size_t kMostInstructions = 8;
 
 bool cheap(const Module& m, const Inst& inst) {
@@ -66,13 +66,18 @@ bool visit(Module& m, Region& region) {
     }
     changed = true;
     Inst old = std::move(m.insts[id]);
-    for (const Region& r : old.regions) body.insert(body.end(), r.body.begin(), r.body.end() - 1);
+    for (const Region& r : old.regions)
+      body.insert(body.end(), r.body.begin(), r.body.end() - 1);
     const Inst& then_yield = m.insts[old.regions[0].body.back()];
     const Inst& else_yield = m.insts[old.regions[1].body.back()];
     std::vector<Inst> selections;
     for (size_t i = 0; i < old.results.size(); ++i)
-      selections.push_back({Op::kCall, select_for(m.type(old.results[i])), old.where,
-                            {old.args[0], then_yield.args[i], else_yield.args[i]}, {old.results[i]}, {}});
+      selections.push_back({Op::kCall,
+                            select_for(m.type(old.results[i])),
+                            old.where,
+                            {old.args[0], then_yield.args[i], else_yield.args[i]},
+                            {old.results[i]},
+                            {}});
     for (Inst& s : selections) {
       m.insts.push_back(std::move(s));
       body.push_back(static_cast<InstId>(m.insts.size() - 1));

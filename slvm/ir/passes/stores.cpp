@@ -1,5 +1,5 @@
-// Idle stores: lowering stores every variable that might have changed. Where all stores to a variable store the value
-// it had from the start, there is nothing to store.
+// Idle stores: lowering stores every variable that might have changed. Where all stores to a variable store
+// the value it had from the start, there is nothing to store.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -22,7 +22,8 @@ bool drop_idle_stores(Module& m) {
       if (inst.op == Op::kArrayStore && m.arrays[inst.index].slot >= 0)
         changes[static_cast<size_t>(m.arrays[inst.index].slot)] = true;
       for (ValueId r : inst.results) // arrays that calls store to
-        if (m.values[r].array >= 0 && inst.op == Op::kCall && m.arrays[static_cast<size_t>(m.values[r].array)].slot >= 0)
+        if (m.values[r].array >= 0 && inst.op == Op::kCall &&
+            m.arrays[static_cast<size_t>(m.values[r].array)].slot >= 0)
           changes[static_cast<size_t>(m.arrays[static_cast<size_t>(m.values[r].array)].slot)] = true;
     });
   });
@@ -32,10 +33,12 @@ bool drop_idle_stores(Module& m) {
                  return m.insts[id].op == Op::kStore && !changes[m.insts[id].index];
                }) > 0;
     for (InstId id : region.body)
-      for (Region& nested : m.insts[id].regions) self(self, nested);
+      for (Region& nested : m.insts[id].regions)
+        self(self, nested);
   };
   for_each_root(m, [&](Region& root) { visit(visit, root); });
-  for (size_t i = 0; i < m.slots.size(); ++i) m.slots[i].stored = changes[i];
+  for (size_t i = 0; i < m.slots.size(); ++i)
+    m.slots[i].stored = changes[i];
   return changed;
 }
 

@@ -1,0 +1,198 @@
+// The machine's public interface: parameters, outputs, messages, errors, derivatives under divergence.
+#include "tests/unit/exec/shading.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace slvm {
+namespace {
+
+using namespace test;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::FloatNear;
+using ::testing::HasSubstr;
+
+struct MachineTest : ::testing::Test {
+  Machine machine;
+  TableServices services;
+
+  std::vector<float> shade(const std::string& source, int n = 5, std::vector<ParamValue> params = {}) {
+    auto surface = instantiate(machine, source, std::move(params));
+    Grid grid = square(n, n);
+    ShadingContext context(machine, services);
+    if (surface) context.shade({.surface = surface.get()}, grid);
+    return red(grid);
+  }
+};
+
+TEST_F(MachineTest, ParametersReplaceDefaults) {
+  EXPECT_THAT(shade("surface s(float k = 2) { Ci = k; }"), Each(2.0f));
+  EXPECT_THAT(shade("surface s(float k = 2) { Ci = k; }", 5, {number("k", 7)}), Each(7.0f));
+}
+
+TEST_F(MachineTest, DefaultsMayUseOtherParameters) {
+  EXPECT_THAT(shade("surface s(float k = 2; float l = 3 * k) { Ci = l; }"), Each(6.0f));
+  EXPECT_THAT(shade("surface s(float k = 2; float l = 3 * k) { Ci = l; }", 5, {number("k", 5)}), Each(15.0f));
+}
+
+TEST_F(MachineTest, WrongParametersAreNamed) {
+  auto shader = machine.load(compile("surface s(float roughness = 2; color c = 1) { Ci = roughness * c; }"));
+  ASSERT_TRUE(shader);
+  std::vector<ParamValue> wrong{number("roughnes", 1)};
+  auto unknown = machine.instantiate(*shader, wrong);
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error(), "surface \"s\" has no parameter 'roughnes'; did you mean 'roughness'?");
+  wrong = {number("c", 1)};
+  auto type = machine.instantiate(*shader, wrong);
+  ASSERT_FALSE(type);
+  EXPECT_EQ(type.error(), "parameter 'c' is a color, not a float");
+}
+
+TEST_F(MachineTest, WhatTheBuildCannotServeIsNamedAtBinding) {
+  auto shader =
+      machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = color texture(map); }"));
+  ASSERT_TRUE(shader);
+  std::vector<ParamValue> map{{"map", {Type::kString, 0, {}, {"brick.tx"}}}};
+  auto textured = machine.instantiate(*shader, map);
+  ASSERT_FALSE(textured);
+  EXPECT_EQ(textured.error(), "surface \"s\" calls 'texture', which this build cannot serve");
+  EXPECT_TRUE(machine.instantiate(*shader, {})); // the default needs no texture
+}
+
+TEST_F(MachineTest, PointParametersAreInShaderSpace) {
+  InstanceOptions moved;
+  moved.shader_to_current.m[12] = 10; // x + 10
+  auto by_default =
+      instantiate(machine, "surface s(point p = point \"shader\" (1, 2, 3)) { Ci = xcomp(p); }", {}, moved);
+  std::vector<ParamValue> given{{"p", {Type::kPoint, 0, {5, 0, 0}, {}}}};
+  auto by_value = instantiate(machine, "surface s(point p = point \"shader\" (1, 2, 3)) { Ci = xcomp(p); }",
+                              given, moved);
+  Grid grid = square(2, 2);
+  ShadingContext context(machine, services);
+  context.shade({.surface = by_default.get()}, grid);
+  EXPECT_THAT(red(grid), Each(11.0f));
+  context.shade({.surface = by_value.get()}, grid);
+  EXPECT_THAT(red(grid), Each(15.0f));
+}
+
+TEST_F(MachineTest, PrimitiveVariablesOverrideParameters) {
+  auto surface = instantiate(machine, "surface s(varying float k = 2) { Ci = k; }", {}, {.may_vary = {"k"}});
+  Grid grid = square(2, 2);
+  float* k = grid.add_varying_primvar("k", Type::kFloat);
+  for (int i = 0; i < 4; ++i)
+    k[i] = static_cast<float>(i);
+  ShadingContext context(machine, services);
+  context.shade({.surface = surface.get()}, grid);
+  EXPECT_THAT(red(grid), ElementsAre(0, 1, 2, 3));
+}
+
+TEST_F(MachineTest, OutputParametersCanBeRead) {
+  auto surface = instantiate(machine, "surface s(output varying float twice = 0) { twice = 2 * u; }");
+  Grid grid = square(3, 1);
+  ShadingContext context(machine, services);
+  context.shade({.surface = surface.get()}, grid);
+  const Planes* twice = context.output(*surface, "twice");
+  ASSERT_TRUE(twice);
+  EXPECT_EQ(twice->get(0, 0), 0);
+  EXPECT_EQ(twice->get(0, 2), 2);
+  EXPECT_EQ(context.output(*surface, "thrice"), nullptr);
+}
+
+TEST_F(MachineTest, CiAndOiBeginAsSurfaceColour) {
+  Grid grid = square(2, 2);
+  grid.set_uniform(Global::kCs, std::vector<float>{0.25f, 0.5f, 1});
+  auto surface = instantiate(machine, "surface null() {}");
+  ShadingContext context(machine, services);
+  context.shade({.surface = surface.get()}, grid);
+  EXPECT_THAT(red(grid), Each(0.25f));
+  EXPECT_THAT(red(grid, 2), Each(1.0f));
+}
+
+TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
+  std::vector<float> ci = shade("surface s() {\n float a[3] = {1, 2, 3};\n Ci = a[floor(u * 4)];\n}");
+  EXPECT_THAT(std::vector<float>(ci.begin(), ci.begin() + 5), ElementsAre(1, 2, 3, 0, 0));
+  std::vector<RuntimeMessage> messages = machine.messages();
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0].text, "array subscript 3 is outside 0..2");
+  EXPECT_EQ(messages[0].file, "test.sl");
+  EXPECT_EQ(messages[0].line, 3u);
+  EXPECT_EQ(messages[0].shader, "surface \"s\"");
+  EXPECT_EQ(messages[0].points, 10u);
+}
+
+TEST_F(MachineTest, UnknownSpacesAreReported) {
+  shade("surface s() { Ci = xcomp(transform(\"nowhere\", P)); }");
+  ASSERT_EQ(machine.messages().size(), 1u);
+  EXPECT_EQ(machine.messages()[0].text, "unknown coordinate system \"nowhere\"");
+}
+
+TEST_F(MachineTest, AttributesOfTheWrongTypeAreReported) {
+  services.attributes["user:a"] = {Type::kColor, 0, {1, 2, 3}, {}};
+  EXPECT_THAT(
+      shade("surface s() { uniform float x = 9; float f = attribute(\"user:a\", x); Ci = x + 100 * f; }"),
+      Each(9.0f));
+  ASSERT_EQ(machine.messages().size(), 1u);
+  EXPECT_EQ(machine.messages()[0].text, "attribute \"user:a\" is a color, not a float");
+}
+
+TEST_F(MachineTest, PrintfRunsOncePerActivePoint) {
+  shade("surface s() { printf(\"once\\n\"); if (u > 0.6) printf(\"%f %d %s|\", u, 7.9, \"x\"); }", 3);
+  EXPECT_EQ(services.printed, "once\n1.000000 7 x|1.000000 7 x|1.000000 7 x|");
+}
+
+TEST_F(MachineTest, DerivativesUnderDivergence) {
+  // Operands without side effects are computed in all lanes: the difference at the branch's edge stays
+  // centred.
+  std::vector<float> ci = shade("surface s() { float x = u * u; Ci = -1; if (u > 0.4) { Ci = Du(x); } }", 5);
+  EXPECT_THAT(std::vector<float>(ci.begin(), ci.begin() + 5),
+              ElementsAre(-1, -1, FloatNear(1, 1e-5f), FloatNear(1.5f, 1e-5f), FloatNear(1.75f, 1e-5f)));
+  // A variable that only some lanes assigned is differenced among those.
+  ci = shade("surface s() { float x = 0; Ci = -1; if (u > 0.4) { float i; for (i = 0; i < u * 4; i += 1) { x "
+             "= u * u; } Ci = Du(x); } }",
+             5);
+  EXPECT_THAT(std::vector<float>(ci.begin(), ci.begin() + 5),
+              ElementsAre(-1, -1, FloatNear(1.25f, 1e-5f), FloatNear(1.5f, 1e-5f), FloatNear(1.75f, 1e-5f)));
+}
+
+TEST_F(MachineTest, SinglePointGridsHaveNoDerivatives) {
+  EXPECT_THAT(shade("surface s() { Ci = Du(P . P) + Dv(u) + area(P); }", 1), ElementsAre(0));
+}
+
+TEST_F(MachineTest, DisplacementThenSurfaceThenAtmosphere) {
+  auto d = instantiate(machine, "displacement d(output varying float h = 0) { h = 0.5; P += h * N; }");
+  auto s =
+      instantiate(machine, "surface s() { float h = -1; displacement(\"h\", h); Ci = zcomp(P) + 10 * h; }");
+  auto a = instantiate(machine, "volume a() { Ci *= 2; }");
+  Grid grid = square(2, 2);
+  ShadingContext context(machine, services);
+  context.shade({.displacement = d.get(), .surface = s.get(), .atmosphere = a.get()}, grid);
+  EXPECT_THAT(red(grid), Each(11.0f)); // 2 * (0.5 + 5)
+}
+
+TEST_F(MachineTest, RandomDiffersByPointCallAndGridAndRepeats) {
+  const char* source = "surface s() { Ci = color(random(), random(), 0); }";
+  auto surface = instantiate(machine, source);
+  auto values = [&](uint64_t id, size_t component) {
+    Grid grid = square(4, 4);
+    grid.id = id;
+    ShadingContext context(machine, services);
+    context.shade({.surface = surface.get()}, grid);
+    return red(grid, component);
+  };
+  EXPECT_EQ(values(1, 0), values(1, 0));
+  EXPECT_NE(values(1, 0), values(2, 0));
+  EXPECT_NE(values(1, 0), values(1, 1));
+  std::vector<float> v = values(1, 0);
+  EXPECT_NE(v[0], v[1]);
+  for (float x : v)
+    EXPECT_TRUE(x >= 0 && x < 1);
+}
+
+TEST_F(MachineTest, UniformRandomIsOneDrawAGrid) {
+  std::vector<float> v = shade("surface s() { uniform float x = random(); Ci = x; }");
+  EXPECT_THAT(v, Each(v[0]));
+}
+
+} // namespace
+} // namespace slvm
