@@ -1,0 +1,185 @@
+// sloinfo: what a compiled shader is and takes. Arguments, finding files, exit statuses; the output formats
+// are in shader_description.h. Read main() first, at the end.
+#include "slc/compiler.h"
+#include "slc/tools/shader_description.h"
+#include "slvm/evaluator.h"
+#include "slvm/format/slo.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Exit statuses; the greatest of all inputs counts.
+enum ExitCode { kFine = 0, kBadInput = 1, kBadUsage = 2, kMissingFile = 3, kInternal = 4 };
+
+constexpr const char* kFooter = R"(
+EXAMPLES
+  sloinfo plastic                     the shader plastic.slo or plastic.sl on the search path
+  sloinfo --param Kd shaders/*.slo    one parameter of many shaders
+  sloinfo --json plastic.sl           for programs; docs/sloinfo-schema.md describes the form
+
+EXIT STATUS
+  0 fine; 1 not a shader, or no such parameter; 2 wrong usage; 3 a file is missing; 4 internal error)";
+
+struct Options {
+  std::vector<std::string> inputs;
+  std::string path, param;
+  bool plugins = false, metadata = false, json = false;
+};
+
+fs::path program_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+// The folders of --path, then where shaders are installed, or lie in a fresh build.
+std::vector<fs::path> search_path(const std::string& text) {
+  std::vector<fs::path> folders = {""};
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find_first_of(":;", at), text.size());
+    if (end > at) folders.emplace_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  folders.push_back(program_folder() / "../share/anemone/shaders");
+  folders.push_back(program_folder() / "../shaders");
+  return folders;
+}
+
+// The file an argument stands for: itself, or NAME.slo or NAME.sl in the first folder that has one.
+fs::path find_file(const std::string& name, const std::vector<fs::path>& folders) {
+  std::error_code error;
+  const bool plain = !name.ends_with(".slo") && !name.ends_with(".sl");
+  for (const fs::path& folder : folders) {
+    if (plain)
+      for (const char* suffix : {".slo", ".sl"})
+        if (fs::path file = folder / (name + suffix); fs::is_regular_file(file, error)) return file;
+    if (fs::path file = folder / name; fs::is_regular_file(file, error)) return file;
+  }
+  return {};
+}
+
+class Run {
+public:
+  explicit Run(const Options& options) : options_(options), folders_(search_path(options.path)) {}
+
+  int run() {
+    for (const std::string& input : options_.inputs)
+      describe(input);
+    std::string out;
+    if (options_.json)
+      out = slc::shaders_as_json(programs_, options_.param);
+    else
+      for (const slvm::Program& program : programs_)
+        out += text_of(program);
+    std::fwrite(out.data(), 1, out.size(), stdout);
+    return worst_;
+  }
+
+private:
+  void fail(int code, const std::string& text) {
+    fmt::print(stderr, "{}{}", text, text.ends_with('\n') ? "" : "\n");
+    worst_ = std::max(worst_, code);
+  }
+
+  std::string text_of(const slvm::Program& program) const {
+    if (options_.plugins) return slc::plugins_as_text(program);
+    if (options_.metadata) return slc::annotations_as_xml(program);
+    return slc::shader_as_text(program, options_.param);
+  }
+
+  void describe(const std::string& input) {
+    const fs::path file = find_file(input, folders_);
+    if (file.empty()) return fail(kMissingFile, fmt::format("sloinfo: no shader '{}'", input));
+    auto bytes = slvm::read_file(file.string());
+    if (!bytes) return fail(kMissingFile, fmt::format("sloinfo: {}", bytes.error()));
+    if (file.extension() == ".sl")
+      return compile(file.string(), std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+    auto program = slvm::read_slo(*bytes);
+    if (!program) return fail(kBadInput, fmt::format("sloinfo: {}: {}", file.string(), program.error()));
+    add(std::move(*program));
+  }
+
+  void compile(const std::string& name, std::string source) {
+    slvm::SourceManager sources;
+    slvm::Diagnostics diags;
+    diags.no_warnings = true;
+    slc::CompileOptions compile_options;
+    compile_options.evaluator = evaluator_.get();
+    for (const fs::path& folder : folders_)
+      compile_options.preprocess.include_dirs.push_back(folder.string());
+    for (const char* place : {"../share/anemone/include", "../stdlib/include", "../../../stdlib/include"})
+      if (std::error_code error; fs::is_directory(program_folder() / place, error)) {
+        compile_options.standard_include = (program_folder() / place).lexically_normal().string();
+        break;
+      }
+    auto shaders = compiler_.compile(sources.add(name, std::move(source)), compile_options, sources, diags);
+    if (diags.has_errors()) return fail(kBadInput, slvm::format_diagnostics(diags, sources));
+    if (shaders.empty())
+      return fail(kBadInput, fmt::format("sloinfo: {}: there is no shader in this file", name));
+    for (slc::CompiledShader& shader : shaders)
+      add(std::move(shader.program));
+  }
+
+  void add(slvm::Program program) {
+    if (!options_.param.empty()) {
+      std::vector<std::string_view> names;
+      for (const slvm::Param& p : program.params)
+        names.push_back(p.name);
+      if (std::find(names.begin(), names.end(), options_.param) == names.end()) {
+        std::string text = fmt::format("sloinfo: {} \"{}\" has no parameter '{}'",
+                                       slvm::shader_kind_name(program.kind), program.name, options_.param);
+        if (std::string_view near = slvm::nearest_name(options_.param, names); !near.empty())
+          text += fmt::format("; did you mean '{}'?", near);
+        return fail(kBadInput, text);
+      }
+    }
+    programs_.push_back(std::move(program));
+  }
+
+  const Options& options_;
+  std::vector<fs::path> folders_;
+  slc::Compiler compiler_;
+  std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_ = slvm::make_kernel_evaluator();
+  std::vector<slvm::Program> programs_;
+  int worst_ = kFine;
+};
+
+int run(int argc, char** argv) {
+  CLI::App app("Describes shaders: kind, name, parameters and their defaults.", "sloinfo");
+  Options options;
+  app.add_option("SHADER", options.inputs, "A .slo file, a .sl source, or a name to be searched for")
+      ->required();
+  auto* plugins = app.add_flag("-p", options.plugins, "Print the plug-ins the shader calls, one path a line");
+  auto* metadata = app.add_flag("-m", options.metadata, "Print the shader's annotations as XML");
+  auto* json = app.add_flag("--json", options.json, "Print everything as JSON");
+  plugins->excludes(metadata)->excludes(json);
+  metadata->excludes(json);
+  app.add_option("--param", options.param, "Print only this parameter")->type_name("NAME");
+  app.add_option("--path", options.path, "Folders, separated by colons, in which shaders are searched")
+      ->type_name("DIRS");
+  app.set_version_flag("--version", "sloinfo (Anemone) 0.1.0");
+  app.footer(kFooter);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? kFine : kBadUsage;
+  }
+  return Run(options).run();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "sloinfo: internal error: {}\n", e.what());
+    return kInternal;
+  }
+}
