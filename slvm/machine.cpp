@@ -93,6 +93,29 @@ void bind_variables(Instance::Bound& bound, const Program& program) {
   }
 }
 
+bool moves_with_strips(const Program& program, uint32_t word) {
+  Space space = operand_space(word);
+  if (space == Space::kSlot) return program.slots[operand_index(word)].varying;
+  return space == Space::kGrid || space == Space::kArray;
+}
+
+void find_strip_operands(Instance::Bound& bound, const Program& program) {
+  bool in_strip = false;
+  for (uint32_t at = 0; at < program.code.size(); at += 1 + instruction_words(program.code[at])) {
+    uint16_t opcode = instruction_opcode(program.code[at]);
+    bool call = opcode >= kFirstShadeop;
+    if (!call && static_cast<Opcode>(opcode) == Opcode::k_strip) in_strip = true;
+    if (!call && static_cast<Opcode>(opcode) == Opcode::k_endstrip) in_strip = false;
+    if (!in_strip) continue;
+    std::string_view kinds = call ? std::string_view() : opcode_info(static_cast<Opcode>(opcode)).operands;
+    for (uint32_t i = 0; i < instruction_words(program.code[at]); ++i)
+      if (call || std::string_view("dsba").find(kinds[i]) != std::string_view::npos) {
+        bool moving = moves_with_strips(program, program.code[at + 1 + i]);
+        (moving ? bound.moving_operands : bound.fixed_operands).push_back(at + 1 + i);
+      }
+  }
+}
+
 // Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot
 // serve.
 std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels) {
@@ -159,6 +182,7 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
   bind_constants(bound, program, strings_);
   bind_params(bound, program, *values, strings_);
   bind_variables(bound, program);
+  find_strip_operands(bound, program);
   return instance;
 }
 

@@ -31,7 +31,7 @@ class ConstantEvaluator;
 struct MachineOptions {
   /// Points a strip: how many are taken through a run of instructions at a time. A multiple of 16; results do
   /// not depend on it.
-  uint32_t strip_points = 128;
+  uint32_t strip_points = 256;
   /// Instruction set by name ("AVX3", "AVX2", "SSE4", "EMU128"...); empty: the best this processor has.
   std::string target = {};
   /// Re-run the optimiser on each instance with its parameter values folded in.

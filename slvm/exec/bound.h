@@ -47,9 +47,12 @@ struct Instance::Bound {
   std::vector<Global> globals;   ///< by slot; kCount for parameters
   int32_t slot_of[kGlobalCount]; ///< by predefined variable; -1: not used by the program
   size_t most_operands = 0;      ///< words of the longest call
-  bool emits = false;            ///< a light with illuminate or solar: not an ambient light
-  bool emits_once = false;       ///< one such block, outside loops: its L, Cl and Ol stay where they are
-  bool reads_messages = false;   ///< its results depend on other shaders' parameters
+  /// Words of code in strip blocks that are operands: those that are in the same place for every strip of a
+  /// grid, and those that move from strip to strip. Both in order.
+  std::vector<uint32_t> fixed_operands, moving_operands;
+  bool emits = false;          ///< a light with illuminate or solar: not an ambient light
+  bool emits_once = false;     ///< one such block, outside loops: its L, Cl and Ol stay where they are
+  bool reads_messages = false; ///< its results depend on other shaders' parameters
 };
 
 } // namespace slvm

@@ -21,8 +21,8 @@ Operand ShaderRun::external_operand(const Frame& f, uint32_t word) const {
   return o;
 }
 
-const MaskWord* ShaderRun::condition(const Frame& f, uint32_t word) {
-  Operand b = operand(f, word);
+const MaskWord* ShaderRun::condition(const Frame& f, const uint32_t* word) {
+  Operand b = operand_at(f, word);
   condition_.resize(mask_words(f.lanes));
   if (b.step) {
     state.machine.kernels().mask_of_bools(condition_.data(), b.data, f.lanes);
@@ -34,7 +34,7 @@ const MaskWord* ShaderRun::condition(const Frame& f, uint32_t word) {
 }
 
 void ShaderRun::copy_planes(const Frame& f, const MaskStack& m, std::span<const uint32_t> w, bool masked) {
-  Operand to = operand(f, w[1]), from = operand(f, w[2]);
+  Operand to = operand_at(f, &w[1]), from = operand_at(f, &w[2]);
   size_t lanes = to.step ? f.lanes : kMaxLanes;
   for (uint32_t i = 0; i < w[0]; ++i) {
     float *d = to.plane(i), *s = from.plane(i);
@@ -48,7 +48,7 @@ void ShaderRun::copy_planes(const Frame& f, const MaskStack& m, std::span<const 
 }
 
 void ShaderRun::first_active(const Frame& f, const MaskStack& m, std::span<const uint32_t> w) {
-  Operand to = operand(f, w[1]), from = operand(f, w[2]);
+  Operand to = operand_at(f, &w[1]), from = operand_at(f, &w[2]);
   size_t lane = 0;
   for (size_t i = m.words(); i-- > 0;)
     if (m.current()[i]) lane = i * kMaskWordLanes + static_cast<size_t>(std::countr_zero(m.current()[i]));
@@ -74,7 +74,7 @@ std::string subscript_error(float subscript, uint32_t elements) {
 } // namespace
 
 void ShaderRun::array_load(const Frame& f, const MaskStack& m, uint32_t pc, std::span<const uint32_t> w) {
-  Operand to = operand(f, w[1]), array = operand(f, w[2]), subscript = operand(f, w[3]);
+  Operand to = operand_at(f, &w[1]), array = operand_at(f, &w[2]), subscript = operand_at(f, &w[3]);
   size_t planes = w[0], lanes = to.step ? f.lanes : 1;
   size_t bad = 0, bad_lane = 0;
   for (size_t lane = 0; lane < lanes; ++lane) {
@@ -93,7 +93,7 @@ void ShaderRun::array_load(const Frame& f, const MaskStack& m, uint32_t pc, std:
 }
 
 void ShaderRun::array_store(const Frame& f, const MaskStack& m, uint32_t pc, std::span<const uint32_t> w) {
-  Operand array = operand(f, w[1]), subscript = operand(f, w[2]), from = operand(f, w[3]);
+  Operand array = operand_at(f, &w[1]), subscript = operand_at(f, &w[2]), from = operand_at(f, &w[3]);
   size_t planes = w[0], lanes = array.step ? f.lanes : 1;
   size_t bad = 0, bad_lane = 0;
   for (size_t lane = 0; lane < lanes; ++lane) {
@@ -120,11 +120,15 @@ void ShaderRun::array_store(const Frame& f, const MaskStack& m, uint32_t pc, std
 void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<const uint32_t> words) {
   const Instance::Bound::Import& target = bound.imports[import];
   if (target.kernel) {
-    for (size_t i = 0; i < words.size(); ++i)
-      operands_[i] = operand(f, words[i]);
-    KernelContext context{&state.machine.strings(), state.grid->id, static_cast<uint32_t>(f.first)};
-    target.kernel(operands_.data(), static_cast<uint32_t>(words.size()),
-                  operands_[0].step ? f.lanes : kMaxLanes, context);
+    const Operand* operands =
+        f.resolved ? f.resolved + (words.data() - program.code.data()) : operands_.data();
+    if (!f.resolved)
+      for (size_t i = 0; i < words.size(); ++i)
+        operands_[i] = operand(f, words[i]);
+    KernelContext context{&state.machine.strings(), state.grid->id, static_cast<uint32_t>(f.first), f.begin};
+    size_t end = f.end;
+    if (operands[0].step == 0) context.begin = 0, end = kMaxLanes; // a uniform call
+    target.kernel(operands, static_cast<uint32_t>(words.size()), end, context);
     return;
   }
   const ShadeopInfo& info = shadeop(program.imports[import]);
@@ -136,17 +140,49 @@ void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<con
   target.grid_op({*this, info, grid_operands_, level, pc});
 }
 
-void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, bool all) {
+void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end,
+                           bool all) {
   size_t strip = std::min<size_t>(state.machine.options().strip_points, pitch);
+  const std::vector<uint32_t>& moving = bound.moving_operands;
+  auto from = std::lower_bound(moving.begin(), moving.end(), body),
+       to = std::lower_bound(from, moving.end(), end);
   Frame f = grid;
+  f.may_narrow = !all;
   for (size_t first = 0; first < points; first += strip) {
     f.first = first;
     f.lanes = std::min(strip, pitch - first);
     f.active = std::min(f.lanes, points - first);
     f.data[static_cast<size_t>(Space::kGrid)] = grid.data[static_cast<size_t>(Space::kGrid)] + first;
     strip_mask_.reset_from(grid_mask, first, f.lanes, f.active);
-    if (strip_mask_.any() || all) execute_code(f, strip_mask_, body);
+    if (!strip_mask_.any() && !all) continue;
+    for (auto word = from; word != to; ++word)
+      resolved_[*word] = operand(f, program.code[*word]);
+    f.resolved = resolved_.data();
+    f.begin = 0;
+    f.end = f.lanes;
+    narrow(f, strip_mask_);
+    execute_code(f, strip_mask_, body);
   }
+}
+
+// Registers hold values for active lanes only, so that lanes before the first and after the last one can be
+// left out.
+void ShaderRun::narrow(Frame& f, const MaskStack& m) {
+  if (!f.may_narrow) return;
+  f.begin = 0;
+  f.end = f.lanes;
+  if (m.all() || !m.any()) return;
+  size_t i = 0;
+  while (!m.current()[i])
+    ++i;
+  f.begin =
+      (i * kMaskWordLanes + static_cast<size_t>(std::countr_zero(m.current()[i]))) / kMaxLanes * kMaxLanes;
+  i = m.words() - 1;
+  while (!m.current()[i])
+    --i;
+  size_t last =
+      i * kMaskWordLanes + kMaskWordLanes - 1 - static_cast<size_t>(std::countl_zero(m.current()[i]));
+  f.end = (last / kMaxLanes + 1) * kMaxLanes;
 }
 
 void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
@@ -165,14 +201,14 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
     case Opcode::k_end:
     case Opcode::k_endstrip: return;
     case Opcode::k_strip:
-      run_strips(f, m, pc, w[1] != 0);
+      run_strips(f, m, pc, w[0], w[1] != 0);
       pc = w[0] + 1; // past the endstrip, which is one word
       break;
     case Opcode::k_mov: copy_planes(f, m, {w, count}, false); break;
     case Opcode::k_movm: copy_planes(f, m, {w, count}, true); break;
     case Opcode::k_first: first_active(f, m, {w, count}); break;
     case Opcode::k_astart: {
-      Operand array = operand(f, w[0]);
+      Operand array = operand_at(f, w);
       const ArrayInfo& info = program.arrays[operand_index(w[0])];
       size_t planes = array.elements * static_cast<size_t>(components(info.type));
       for (size_t i = 0; i < planes; ++i)
@@ -182,7 +218,7 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
     case Opcode::k_aload: array_load(f, m, at, {w, count}); break;
     case Opcode::k_astore: array_store(f, m, at, {w, count}); break;
     case Opcode::k_if:
-      m.push_if(condition(f, w[0]));
+      m.push_if(condition(f, w));
       if (!m.any()) pc = w[1];
       break;
     case Opcode::k_else:
@@ -194,7 +230,7 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       if (!m.any()) pc = w[0];
       break;
     case Opcode::k_uif:
-      if (std::bit_cast<uint32_t>(*operand(f, w[0]).data) == 0) pc = w[1] + 1 + instruction_words(code[w[1]]);
+      if (std::bit_cast<uint32_t>(*operand_at(f, w).data) == 0) pc = w[1] + 1 + instruction_words(code[w[1]]);
       break;
     case Opcode::k_uelse: pc = w[0]; break;
     case Opcode::k_uendif:
@@ -214,7 +250,7 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       break;
     case Opcode::k_while:
     case Opcode::k_uwhile:
-      m.lanes_where(condition(f, w[0]));
+      m.lanes_where(condition(f, w));
       if (!m.any()) pc = w[1];
       break;
     case Opcode::k_break:
@@ -226,10 +262,10 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       pc = w[1];
       break;
     case Opcode::k_illuminance: {
-      Operand axis = operand(f, w[4]), angle = operand(f, w[5]);
-      auto category = std::bit_cast<uint32_t>(*operand(f, w[2]).data);
+      Operand axis = operand_at(f, &w[4]), angle = operand_at(f, &w[5]);
+      auto category = std::bit_cast<uint32_t>(*operand_at(f, &w[2]).data);
       m.push_loop();
-      light_loop.begin(*this, state.machine.strings().text(category), operand(f, w[3]),
+      light_loop.begin(*this, state.machine.strings().text(category), operand_at(f, &w[3]),
                        w[1] ? &axis : nullptr, w[1] ? &angle : nullptr);
       pc = next_light(m, pc, w[0]);
       break;
@@ -239,15 +275,15 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       pc = next_light(m, w[0], at);
       break;
     case Opcode::k_illuminate: {
-      Operand axis = operand(f, w[3]), angle = operand(f, w[4]);
-      begin_illuminate(*this, operand(f, w[2]), w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
+      Operand axis = operand_at(f, &w[3]), angle = operand_at(f, &w[4]);
+      begin_illuminate(*this, operand_at(f, &w[2]), w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
       m.push_if(lit_.data());
       entered_.assign(m.current(), m.current() + m.words());
       if (!m.any()) pc = w[0];
       break;
     }
     case Opcode::k_solar: {
-      Operand axis = operand(f, w[2]), angle = operand(f, w[3]);
+      Operand axis = operand_at(f, &w[2]), angle = operand_at(f, &w[3]);
       begin_solar(*this, w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
       m.push_if(lit_.data());
       entered_.assign(m.current(), m.current() + m.words());
@@ -262,6 +298,9 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       break;
     case Opcode::kCount: break;
     }
+    // From if to continue: what works on masks.
+    if (opcode >= static_cast<uint16_t>(Opcode::k_if) && opcode <= static_cast<uint16_t>(Opcode::k_continue))
+      narrow(f, m);
   }
 }
 

@@ -23,6 +23,9 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal) {
                    ? bind_parameter(i)
                    : bind_variable(bound.globals[i], program.slots[i].stored, position, normal);
   mask.reset(pitch, points);
+  resolved_.resize(program.code.size());
+  for (uint32_t word : bound.fixed_operands)
+    resolved_[word] = operand(frame_, program.code[word]);
 }
 
 void ShaderRun::execute() {
@@ -39,12 +42,17 @@ void ShaderRun::bind_registers() {
   float* memory = memory_.reserve(std::max<size_t>(total, 1));
   if (state.machine.options().poison_registers)
     std::fill_n(memory, total, std::numeric_limits<float>::signaling_NaN());
-  frame_ = {{bound.constants.data(), memory, memory + uniform, memory + uniform + strips},
-            {kMaxLanes, kMaxLanes, strip, pitch},
-            {0, 0, 1, 1},
-            0,
-            pitch,
-            points};
+  frame_ = {};
+  frame_.data[0] = bound.constants.data();
+  frame_.data[1] = memory;
+  frame_.data[2] = memory + uniform;
+  frame_.data[3] = memory + uniform + strips;
+  frame_.pitch[0] = frame_.pitch[1] = kMaxLanes;
+  frame_.pitch[2] = strip;
+  frame_.pitch[3] = pitch;
+  frame_.step[2] = frame_.step[3] = 1;
+  frame_.lanes = frame_.end = pitch;
+  frame_.active = points;
   operands_.resize(bound.most_operands);
 }
 

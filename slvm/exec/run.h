@@ -32,6 +32,11 @@ struct Frame {
   size_t first = 0;  ///< grid index of the first lane
   size_t lanes = 0;  ///< a multiple of kMaxLanes
   size_t active = 0; ///< lanes that are points; the rest is padding
+  /// In strips: operands by word of code, found before the block runs. Null at grid level.
+  const Operand* resolved = nullptr;
+  /// The lanes worth computing: all active ones are among [begin, end).
+  size_t begin = 0, end = 0;
+  bool may_narrow = false; ///< false where derivatives read lanes that are off
 };
 
 class ShaderRun {
@@ -65,6 +70,10 @@ public:
     if (space >= static_cast<size_t>(Space::kSlot)) return external_operand(f, word);
     return {f.data[space] + operand_index(word) * f.pitch[space], f.pitch[space], f.step[space], 1};
   }
+  /// The operand whose word is at `w` in the code.
+  Operand operand_at(const Frame& f, const uint32_t* w) const {
+    return f.resolved ? f.resolved[w - program.code.data()] : operand(f, *w);
+  }
   /// A variable or an array.
   Operand external_operand(const Frame& frame, uint32_t word) const;
   const Frame& grid_frame() const { return frame_; }
@@ -93,20 +102,22 @@ private:
 
   // The interpreter proper (interpreter.cpp).
   void execute_code(Frame& frame, MaskStack& mask, uint32_t pc);
-  void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, bool all);
+  void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end, bool all);
   void call(const Frame& frame, uint32_t pc, uint16_t import, std::span<const uint32_t> words);
   void copy_planes(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words, bool masked);
   void first_active(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words);
   void array_load(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
   void array_store(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
-  const MaskWord* condition(const Frame& frame, uint32_t word);
+  const MaskWord* condition(const Frame& frame, const uint32_t* word);
+  static void narrow(Frame& frame, const MaskStack& mask);
   uint32_t next_light(MaskStack& mask, uint32_t body, uint32_t end);
 
   Frame frame_{};
   PlaneMemory memory_;
   std::vector<PlaneMemory> extra_; ///< variables with no place in the register memory
   size_t extra_used_ = 0;
-  std::vector<Operand> operands_;
+  std::vector<Operand> operands_; ///< of a call at grid level
+  std::vector<Operand> resolved_; ///< by word of code: operands in strip blocks
   std::vector<CallOperand> decoded_;
   std::vector<GridOperand> grid_operands_;
   std::vector<MaskWord> condition_, lit_, entered_;

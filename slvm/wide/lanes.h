@@ -16,6 +16,7 @@
 
 #include "slvm/wide/wide.h"
 
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -127,14 +128,18 @@ template <class R, class... A> struct Shape<R(A...)> {
       kFunction(arguments...);
     (put_output<A>(o[operand_of(I)], lane, arguments), ...);
   }
+  // The operands are copied: vector stores may alias anything, and would have them read again for each vector.
   template <auto kFunction, size_t... I>
-  static HWY_INLINE void strip(const Operand* o, size_t lanes, std::index_sequence<I...> indexes) {
-    for (size_t lane = 0; lane < lanes; lane += kWidth)
+  static HWY_INLINE void strip(const Operand* operands, size_t begin, size_t end, std::index_sequence<I...> indexes) {
+    constexpr size_t kCount = sizeof...(A) + kHasResult;
+    Operand o[kCount];
+    std::copy_n(operands, kCount, o);
+    for (size_t lane = begin; lane < end; lane += kWidth)
       call<kFunction>(o, lane, indexes, argument<A>(o[operand_of(I)], lane)...);
   }
   template <auto kFunction>
-  static HWY_FLATTEN void run(const Operand* operands, uint32_t, size_t lanes, const KernelContext&) {
-    strip<kFunction>(operands, lanes, std::index_sequence_for<A...>());
+  static HWY_FLATTEN void run(const Operand* operands, uint32_t, size_t lanes, const KernelContext& context) {
+    strip<kFunction>(operands, context.begin, lanes, std::index_sequence_for<A...>());
   }
 };
 

@@ -32,6 +32,8 @@ struct KernelContext {
   StringPool* strings = nullptr;
   uint64_t seed = 0;        ///< of random(): differs between grids
   uint32_t first_point = 0; ///< grid index of lane 0 of this strip
+  /// Lanes before this one (a multiple of kMaxLanes) need not be computed: none of them is active.
+  size_t begin = 0;
 };
 
 /// `operands`: first what the call stores (the result unless the shadeop is void, then every output and inout
