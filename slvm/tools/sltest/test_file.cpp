@@ -2,6 +2,7 @@
 // setup_reader.cpp, expectations here.
 #include "slvm/tools/sltest/test_file.h"
 
+#include "slvm/format/shadeop_info.h"
 #include "slvm/tools/sltest/setup_reader.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,8 @@ private:
       auto d = parse_declaration(node.value_or<std::string>(""));
       if (!d) return source_.error(node, d.error());
       if (!d->type) d->type = Type::kFloat;
+      if (find_global(d->name) != Global::kCount)
+        return source_.error(node, fmt::format("'{}' is a predefined variable; give the column another name", d->name));
       result.columns.push_back(*d);
     }
     for (const toml::node& node : *rows) {
