@@ -1,5 +1,5 @@
-# What `cmake --install` puts where: programs, the libraries with their headers, CMake packages `slvm` and `slc`,
-# shaders and RSL headers. Included last, when all targets exist.
+# What `cmake --install` puts where, beside programs and shaders: the libraries with their headers, CMake packages
+# `slvm` and `slc`, RSL headers. Included last, when all targets exist.
 include(CMakePackageConfigHelpers)
 
 # sl_package(NAME targets...): exports targets as NAME::..., with NAME-config.cmake from cmake/.
@@ -26,5 +26,6 @@ install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
 set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/anemone\")")
 install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake)
 
-install(DIRECTORY stdlib/include/ DESTINATION ${CMAKE_INSTALL_DATADIR}/anemone/include)
-install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/anemone/shaders FILES_MATCHING PATTERN "*.sl")
+if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/stdlib/include)
+  install(DIRECTORY stdlib/include/ DESTINATION ${CMAKE_INSTALL_DATADIR}/anemone/include)
+endif()
