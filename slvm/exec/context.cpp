@@ -28,14 +28,23 @@ struct ShadingContext::Impl {
     cache.clear();
   }
 
+  const ShaderRun*& known(Role role) {
+    return role == kDisplacement ? state.displacement : role == kAtmosphere ? state.atmosphere : state.surface;
+  }
+
+  /// Parameters of a shader that has not run have their initial values, should `asking` want them.
+  void announce(Role role, const Instance* instance, const Instance* asking) {
+    if (!instance || !asking || !asking->bound().reads_messages) return;
+    ShaderRun& run = run_of(role, *instance);
+    run.prepare();
+    known(role) = &run;
+  }
+
   const ShaderRun* execute(Role role, const Instance* instance) {
     if (!instance) return nullptr;
     ShaderRun& run = run_of(role, *instance);
     run.prepare();
-    const ShaderRun*& known = role == kDisplacement ? state.displacement
-                              : role == kAtmosphere ? state.atmosphere
-                                                    : state.surface;
-    if (role != kSingle) known = &run; // lights ask for its parameters while it runs
+    if (role != kSingle) known(role) = &run; // lights ask for its parameters while it runs
     run.execute();
     return &run;
   }
@@ -88,11 +97,8 @@ void light_to_grid(ShaderRun& run, Grid& grid) {
 void ShadingContext::displace(const ShaderSet& set, Grid& grid) {
   impl_->begin(set, grid);
   impl_->state.displacement = impl_->state.surface = impl_->state.atmosphere = nullptr;
-  if (set.displacement && set.surface && set.displacement->bound().reads_messages) {
-    ShaderRun& surface = impl_->run_of(Impl::kSurface, *set.surface);
-    surface.prepare(); // parameters of a shader that has not run have their initial values
-    impl_->state.surface = &surface;
-  }
+  impl_->announce(Impl::kSurface, set.surface, set.displacement);
+  impl_->announce(Impl::kAtmosphere, set.atmosphere, set.displacement);
   impl_->execute(Impl::kDisplacement, set.displacement);
 }
 
@@ -100,6 +106,7 @@ void ShadingContext::shade_displaced(const ShaderSet& set, Grid& grid) {
   impl_->begin(set, grid);
   begin_output(grid, Global::kCi, Global::kCs);
   begin_output(grid, Global::kOi, Global::kOs);
+  impl_->announce(Impl::kAtmosphere, set.atmosphere, set.surface);
   impl_->execute(Impl::kSurface, set.surface);
   impl_->execute(Impl::kAtmosphere, set.atmosphere);
 }
