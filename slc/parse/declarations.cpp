@@ -11,13 +11,13 @@ TranslationUnit parse(TokenList tokens, slvm::Diagnostics& diags) {
 TranslationUnit Parser::parse_file() {
   while (!at_end()) {
     size_t before = at_;
-    braces_ = 0;
     if (take(TokenKind::kSemicolon)) continue;
     if (at_shader_start()) parse_shader();
     else if (at_function()) unit_.definitions.push_back({parse_function(), nullptr});
     else if (!reject_rsl2_declaration()) {
       if (at(TokenKind::kRightBrace)) {
-        fail(Msg::kStrayBrace);
+        report(diags_, Msg::kStrayBrace, current().range);
+        advance();
       } else if (at(TokenKind::kIdentifier) && peek().kind == TokenKind::kIdentifier &&
                  peek(2).kind == TokenKind::kLeftParen) {
         fail(Msg::kUnknownShaderKind, current().text);

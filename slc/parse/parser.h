@@ -134,8 +134,8 @@ private:
   TranslationUnit unit_;
   size_t at_ = 0;
   int depth_ = 0;
-  int braces_ = 0; // open ones around the current token
   bool panic_ = false;
+  bool gave_up_ = false; // after an error with no way on: the rest of the file is skipped
 };
 
 /// The type a keyword names; kVoid for other words. "void" is not a type here.

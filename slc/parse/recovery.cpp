@@ -64,7 +64,7 @@ bool Parser::at_statement_word() const {
 }
 
 void Parser::synchronise() {
-  panic_ = false;
+  panic_ = gave_up_;
   int parens = 0;
   for (; !at_end(); advance()) {
     if (at_shader_start()) return;
@@ -96,6 +96,7 @@ void Parser::skip_balanced() {
 
 // From the '(' at `open` to behind its ')', or to the block if there is none.
 void Parser::skip_formals(size_t open) {
+  if (gave_up_) return;
   panic_ = false;
   int depth = 0;
   for (at_ = open; !at_end() && !at(TokenKind::kLeftBrace); advance()) {
@@ -106,7 +107,7 @@ void Parser::skip_formals(size_t open) {
 
 void Parser::too_deep() {
   fail(Msg::kTooDeep, kMaxNesting);
-  // Nothing sensible follows: end the file here.
+  gave_up_ = true; // nothing sensible follows: end the file here
   at_ = tokens_.size() - 1;
 }
 

@@ -8,25 +8,24 @@ std::unique_ptr<BlockStmt> Parser::parse_block() {
   auto block = std::make_unique<BlockStmt>(current().range);
   slvm::SourceRange open = current().range;
   if (!expect(TokenKind::kLeftBrace, "'{'")) return block;
-  ++braces_;
   while (!at(TokenKind::kRightBrace)) {
     if (at_end() || at_shader_start()) {
       if (!panic_)
         report(diags_, Msg::kMissingBrace, current().range, describe_current())
             .notes.push_back({open, "the block starts here"});
-      panic_ = false;
-      --braces_;
+      panic_ = gave_up_;
       return block;
     }
     size_t before = at_;
-    if (StmtPtr s = parse_statement()) block->statements.push_back(std::move(s));
+    StmtPtr s = parse_statement();
+    bool broken = panic_ && as<ExpressionStmt>(s.get());
+    if (s && !broken) block->statements.push_back(std::move(s));
     if (panic_) {
       synchronise();
       if (at_ == before && !at(TokenKind::kRightBrace) && !at_shader_start()) advance();
     }
   }
   advance();
-  --braces_;
   return block;
 }
 

@@ -31,7 +31,10 @@ namespace {
 
 constexpr size_t kMaxIncludeDepth = 64;
 constexpr size_t kMaxIncludes = 2000;
-constexpr size_t kMaxExpansions = 1'000'000;
+constexpr size_t kMaxExpansions = 200'000;
+
+// What Wave calls the main file: any other name it would make an absolute path.
+constexpr const char* kMainName = "<stdin>";
 
 struct GiveUp {}; // thrown and caught inside this file
 
@@ -70,6 +73,7 @@ public:
     return {p.file, static_cast<uint32_t>(p.line), column, column + static_cast<uint32_t>(length)};
   }
 
+  void set_main(FileId main) { file_ids_[kMainName] = main; }
   void enter_file(std::string path) { open_files_.push_back(std::move(path)); }
   void leave_file() { open_files_.pop_back(); }
 
@@ -120,6 +124,10 @@ std::string folder_of(const std::string& path) {
 bool State::locate(const std::string& name, bool system, SourceRange where, std::string& path) {
   if (++include_count_ > kMaxIncludes) {
     report(diags_, Msg::kTooManyIncludes, where, kMaxIncludes);
+    throw GiveUp{};
+  }
+  if (open_files_.size() > kMaxIncludeDepth) {
+    report(diags_, Msg::kIncludeDepth, where, kMaxIncludeDepth);
     throw GiveUp{};
   }
   std::vector<std::string> folders;
@@ -318,19 +326,19 @@ PreprocessedText preprocess(FileId main, const PreprocessOptions& options, slvm:
   PreprocessedText out;
   State state(options, sources, diags, out);
   std::string text = normalise_source(sources.text(main));
-  std::string name(sources.name(main));
-  state.enter_file(name);
+  state.set_main(main);
+  state.enter_file(std::string(sources.name(main)));
   try {
     Hooks hooks;
     hooks.state = &state;
-    Context context(text.begin(), text.end(), name.c_str(), hooks);
+    Context context(text.begin(), text.end(), kMainName, hooks);
     auto language = wave::support_c99;
     language = wave::enable_emit_pragma_directives(language);
     language = wave::enable_emit_line_directives(language, false);
     language = wave::enable_no_newline_at_end_of_file(language);
     language = wave::enable_no_character_validation(language);
     context.set_language(language);
-    context.set_max_include_nesting_depth(kMaxIncludeDepth);
+    context.set_max_include_nesting_depth(2 * kMaxIncludeDepth); // locate() stops earlier
     define_macros(context, options);
     run(context, state);
   } catch (const GiveUp&) {

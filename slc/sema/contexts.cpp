@@ -40,6 +40,12 @@ bool always_uniform(const Variable& v) {
   return declared_uniform(v) || (v.kind == VariableKind::kParameter && !v.detail_given);
 }
 
+bool is_random(const Expr* e) {
+  if (const auto* conversion = as<ConvertExpr>(e)) e = conversion->operand.get();
+  const auto* call = as<CallExpr>(e);
+  return call && !call->function && call->shadeop != kNoShadeop && slvm::shadeop(call->shadeop).name == "random";
+}
+
 class ContextWalk {
 public:
   ContextWalk(Shader& shader, slvm::Diagnostics& diags, Reported& reported)
@@ -89,7 +95,7 @@ private:
   bool read(const Variable* v, SourceRange where);
   void store(Expr& place, bool varying, SourceRange where);
   void store_variable(VarState& state, bool varying, SourceRange where, std::string_view name);
-  bool draws_once(Expr* value, const Variable& target);
+  static bool draws_once(const Expr* value, const Variable& target);
 
   VarState& state(const Variable& v);
   void mark(bool& flag) { changed_ |= !std::exchange(flag, true); }
@@ -121,7 +127,7 @@ void ContextWalk::walk_shader() {
   hard_ = soft_ = illuminance_ = emission_ = 0;
   for (Variable* v : shader_.params) {
     VarState& s = state(*v);
-    s.varying = v->detail_given && v->detail == Detail::kVarying;
+    if (v->detail_given && v->detail == Detail::kVarying) s.varying = true; // never back: the walk is repeated until it settles
     if (value(v->init.get()) && !s.varying && !draws_once(v->init.get(), *v))
       complain(Msg::kVaryingToUniform, v->init->range, v->name);
   }
@@ -209,10 +215,11 @@ void ContextWalk::jump(const JumpStmt& s) {
 }
 
 void ContextWalk::leave(ReturnStmt& s) {
-  bool varying = value(s.value.get());
+  bool uniform_function = frame_.function && frame_.function->result_uniform;
+  bool varying = !(uniform_function && is_random(s.value.get())) && value(s.value.get());
   bool some_lanes = control() > frame_.control; // only
   if (varying || some_lanes) mark(here().result_varying);
-  if (frame_.function && frame_.function->result_uniform && varying && s.value)
+  if (uniform_function && varying)
     complain(Msg::kVaryingResult, s.value->range, frame_.function->name);
   if (!some_lanes) return;
   mark(here().soft_rest);
@@ -371,12 +378,7 @@ void ContextWalk::store(Expr& place, bool varying, SourceRange where) {
 }
 
 // random() straight into a declared uniform is drawn once for the grid.
-bool ContextWalk::draws_once(Expr* e, const Variable& target) {
-  if (auto* conversion = as<ConvertExpr>(e)) e = conversion->operand.get();
-  auto* draw = as<CallExpr>(e);
-  return draw && !draw->function && draw->shadeop != kNoShadeop && slvm::shadeop(draw->shadeop).name == "random" &&
-         always_uniform(target);
-}
+bool ContextWalk::draws_once(const Expr* e, const Variable& target) { return always_uniform(target) && is_random(e); }
 
 bool ContextWalk::assign(AssignExpr& e) {
   const Variable* v = nullptr;
@@ -430,9 +432,7 @@ bool ContextWalk::row_call(CallExpr& e) {
 }
 
 void ContextWalk::check_row_place(const CallExpr& e, uint32_t flags) {
-  std::string_view kind = slvm::shader_kind_name(shader_.kind);
   if ((flags & slvm::kSurfaceOnly) && shader_.kind == ShaderKind::kLight) complain(Msg::kCallNotInLights, e.range, e.name);
-  if ((flags & slvm::kLightOnly) && shader_.kind != ShaderKind::kLight) complain(Msg::kCallOnlyInLights, e.range, e.name, kind);
   if ((flags & slvm::kInIlluminance) && illuminance_ == 0) complain(Msg::kOutsideIlluminance, e.range, e.name);
 }
 

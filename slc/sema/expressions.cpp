@@ -23,6 +23,7 @@ TypeSet Checker::analyse_here(Expr& e) {
   case ExprKind::kTuple: {
     auto& tuple = *as<TupleExpr>(&e);
     for (ExprPtr& element : tuple.elements) analyse(*element);
+    if (tuple.elements.size() != 3 && tuple.elements.size() != 16) return TypeSet::error(); // reported by the parser
     return tuple.elements.size() == 16 ? TypeSet(Type::kMatrix) : TypeSet::triples();
   }
   case ExprKind::kArrayInit:
@@ -108,17 +109,23 @@ TypeSet Checker::analyse_operator(OperatorExpr& e) {
   if (error) return TypeSet::error();
   std::vector<Argument>& args = resolution.args;
   if (args.size() == 2) {
-    // The other operand chooses where nothing else does: a color makes an overloaded call a color, and a promoted
-    // float takes the type of what it is combined with.
+    // The other operand chooses where nothing else does: a color makes an overloaded call a color, a point, vector or
+    // normal is scaled by a float, and a promoted float takes the type of what it is combined with.
+    bool scales = e.op == Operator::kMul || e.op == Operator::kDiv;
     for (size_t i = 0; i < 2; ++i) {
       TypeSet own = args[i].types, other = args[1 - i].types;
       bool color = other.only(Type::kColor) && own.has(Type::kColor);
       if (color || (own.only(Type::kFloat) && other.single())) args[i].preferred = other.preferred();
+      if (scales && own.has(Type::kFloat) && other.single() && slvm::is_geometric(other.preferred()))
+        args[i].types = Type::kFloat;
     }
   }
+  // Floats are promoted for sums and products, but the dot and cross product of a float mean nothing.
+  bool product = e.op == Operator::kDot || e.op == Operator::kCross;
+  bool has_float = std::any_of(args.begin(), args.end(), [](const Argument& a) { return a.types.only(Type::kFloat); });
   std::vector<Candidate> rows;
   for (ShadeopId id : slvm::shadeop_overloads(fmt::format("operator{}", operator_text(e.op))))
-    rows.push_back({nullptr, id});
+    if (!product || !has_float) rows.push_back({nullptr, id});
   resolution.viable = viable(rows, args);
   if (resolution.viable.empty()) {
     report_bad_operands(e, args);

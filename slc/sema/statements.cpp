@@ -18,8 +18,8 @@ void Checker::check_statement(Stmt& s) {
   case StmtKind::kFunction: return check_function(*as<FunctionStmt>(&s)->function);
   case StmtKind::kExpression:
     for (ExprPtr& e : as<ExpressionStmt>(&s)->expressions) {
-      analyse(*e);
-      if (e->kind != ExprKind::kAssign && e->kind != ExprKind::kCall && e->kind != ExprKind::kCast)
+      bool error = analyse(*e).is_error();
+      if (!error && e->kind != ExprKind::kAssign && e->kind != ExprKind::kCall && e->kind != ExprKind::kCast)
         report(diags_, Msg::kNoEffect, e->range);
       // Whatever an overloaded call would return is thrown away.
       finish(e, set_of(*e).preferred());

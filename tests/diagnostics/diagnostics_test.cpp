@@ -1,0 +1,127 @@
+// Compiles every .sl file of this folder and compares its messages with the comments in it:
+//   float x = 1.5f; // expect-warning: suffix
+// says that on this line, and nowhere else, a warning is given whose text contains "suffix". Several may follow each
+// other on a line. All warnings are on. A second test checks that each message of messages.def occurs somewhere.
+#include "slc/compiler.h"
+#include "slc/diag/messages.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <regex>
+#include <set>
+
+namespace {
+
+namespace fs = std::filesystem;
+using slvm::Diagnostic;
+using slvm::Severity;
+
+struct Expectation {
+  std::string file;
+  uint32_t line = 0;
+  Severity severity = Severity::kError;
+  std::string text;
+  bool met = false;
+};
+
+std::vector<std::string> programs() {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(DIAGNOSTICS_DIR))
+    if (entry.path().extension() == ".sl") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Outcome {
+  slvm::SourceManager sources;
+  slvm::Diagnostics diags;
+};
+
+const slc::Compiler& compiler() {
+  static const slc::Compiler kCompiler;
+  return kCompiler;
+}
+
+void compile(const std::string& program, Outcome& out) {
+  out.diags.error_limit = 1000;
+  std::string path = std::string(DIAGNOSTICS_DIR) + "/" + program + ".sl";
+  std::optional<std::string> text = slc::read_file(path);
+  ASSERT_TRUE(text) << path;
+  compiler().check(out.sources.add(path, *text), {}, out.sources, out.diags);
+}
+
+void read_expectations(const std::string& file, std::string_view text, std::vector<Expectation>& out) {
+  static const std::regex kPattern("// expect-(error|warning): (.*?)(?= // expect-|\\n|$)");
+  uint32_t line = 1;
+  for (size_t begin = 0; begin < text.size(); ++line) {
+    size_t end = std::min(text.find('\n', begin), text.size());
+    std::string content(text.substr(begin, end - begin));
+    for (std::sregex_iterator it(content.begin(), content.end(), kPattern), last; it != last; ++it)
+      out.push_back({file, line, (*it)[1] == "error" ? Severity::kError : Severity::kWarning, (*it)[2].str()});
+    begin = end + 1;
+  }
+}
+
+class DiagnosticsTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(DiagnosticsTest, says_what_is_expected) {
+  Outcome out;
+  compile(GetParam(), out);
+  std::vector<Expectation> expected;
+  for (slvm::FileId id = 1; !out.sources.name(id).empty(); ++id)
+    read_expectations(std::string(out.sources.name(id)), out.sources.text(id), expected);
+  for (const Diagnostic& d : out.diags.sorted()) {
+    auto fits = [&](const Expectation& e) {
+      return !e.met && e.line == d.where.line && e.file == out.sources.name(d.where.file) && e.severity == d.severity &&
+             d.text.find(e.text) != std::string::npos;
+    };
+    auto found = std::find_if(expected.begin(), expected.end(), fits);
+    if (found != expected.end()) found->met = true;
+    else
+      ADD_FAILURE() << "unexpected: " << out.sources.name(d.where.file) << ":" << d.where.line << ":" << d.where.column
+                    << ": " << (d.severity == Severity::kError ? "error: " : "warning: ") << d.text;
+  }
+  for (const Expectation& e : expected)
+    if (!e.met) ADD_FAILURE() << "missing: " << e.file << ":" << e.line << ": " << e.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(programs, DiagnosticsTest, testing::ValuesIn(programs()),
+                         [](const testing::TestParamInfo<std::string>& program) { return program.param; });
+
+// The texts a message can have, as a regular expression.
+std::regex pattern_of(std::string_view text) {
+  std::string pattern;
+  for (size_t i = 0; i < text.size(); ++i) {
+    char c = text[i];
+    if (c == '{' && text[i + 1] != '{') {
+      i = text.find('}', i);
+      pattern += "[^]*";
+      continue;
+    }
+    if (c == '{' || c == '}') ++i;
+    if (std::string_view("\\^$.|?*+()[]{}").find(c) != std::string_view::npos) pattern += '\\';
+    pattern += c;
+  }
+  return std::regex(pattern);
+}
+
+TEST(Diagnostics, each_message_has_a_program) {
+  // Says that our own build is incomplete: no program can bring it about.
+  const std::set<std::string_view> kWithout = {"kNoBody"};
+  std::vector<std::string> texts;
+  for (const std::string& program : programs()) {
+    Outcome out;
+    compile(program, out);
+    for (const Diagnostic& d : out.diags.sorted()) texts.push_back(d.text);
+  }
+  for (int i = 0; i < static_cast<int>(slc::Msg::kCount); ++i) {
+    const slc::MessageInfo& info = slc::message_info(static_cast<slc::Msg>(i));
+    if (kWithout.contains(info.id)) continue;
+    std::regex pattern = pattern_of(info.text);
+    bool seen = std::any_of(texts.begin(), texts.end(), [&](const std::string& t) { return std::regex_match(t, pattern); });
+    EXPECT_TRUE(seen) << "no program in tests/diagnostics brings about " << info.id << ": " << info.text;
+  }
+}
+
+} // namespace

@@ -1,0 +1,1 @@
+#include "include_itself.h" // expect-error: nested more than 64 deep

@@ -1,0 +1,23 @@
+// What compiles and may still be wrong.
+surface s(float k = 1; float unused = 2; string pattern = "%f") // expect-warning: parameter 'unused' is not used
+{
+  float never = 1; // expect-warning: is set but never read
+  float nothing; // expect-warning: 'nothing' is not used
+  float early;
+  float f = early; // expect-warning: read before it is set
+  early = 1;
+  if (k) f += 1; // expect-warning: a float used as condition
+  if (f = k) f += 1; // expect-warning: this assigns // expect-warning: a float used as condition
+  f = k > 2; // expect-warning: a relation used as a number
+  f + 1; // expect-warning: the value of this expression is not used
+  point both = P + P; // expect-warning: the sum of two points
+  vector v = P; // expect-warning: a point is used as a vector
+  f += float texture("a.tex", "blurr", 0.1); // expect-warning: did you mean "blur"?
+  f += float texture("a.tex", "nonsense", 0.1); // expect-warning: no optional argument "nonsense"
+  Ci = color "hsb" (f, 0, 0); // expect-warning: no color space "hsb"
+  point p = transform("wold", both); // expect-warning: did you mean "world"?
+  point q = transform("object", P);
+  q = transform("world", q); // expect-warning: is in space "object" already
+  printf(pattern, noise(P)); // expect-warning: nothing says which type 'noise' should return
+  Ci = f + xcomp(p) + length(v) + xcomp(q) + Ci;
+}

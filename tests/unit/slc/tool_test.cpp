@@ -1,0 +1,133 @@
+// The slc program, as its users run it.
+#include "slc/tools/dependency_file.h"
+#include "tests/unit/slc/front_end.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own for each test, where slc runs.
+class Tool : public testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("slc_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  // Exit code; both output streams go to output_.
+  int run(const std::string& arguments) {
+    std::string command = "cd '" + folder_.string() + "' && " + SLC_PROGRAM + " " + arguments + " 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    output_.clear();
+    std::array<char, 4096> buffer;
+    for (size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) output_.append(buffer.data(), n);
+    return WEXITSTATUS(pclose(pipe));
+  }
+  bool exists(const std::string& name) { return fs::exists(folder_ / name); }
+  std::string read(const std::string& name) { return slc::read_file((folder_ / name).string()).value_or("none"); }
+
+  fs::path folder_;
+  std::string output_;
+};
+
+TEST_F(Tool, output_is_named_after_the_shader) {
+  write("x.sl", "surface plastic() { Ci = 1; } surface metal() { Ci = 2; }");
+  EXPECT_EQ(run("x.sl"), 0) << output_;
+  EXPECT_EQ(output_, "surface \"plastic\" -> plastic.slo\nsurface \"metal\" -> metal.slo\n");
+  EXPECT_TRUE(exists("plastic.slo") && exists("metal.slo"));
+  EXPECT_EQ(run("-o both.slo x.sl"), 2);
+  fs::create_directory(folder_ / "out");
+  EXPECT_EQ(run("-q -d out x.sl"), 0);
+  EXPECT_EQ(output_, "");
+  EXPECT_TRUE(exists("out/metal.slo"));
+}
+
+TEST_F(Tool, exit_codes) {
+  write("good.sl", "surface good() {}");
+  write("bad.sl", "surface bad() { x }");
+  EXPECT_EQ(run("good.sl"), 0);
+  EXPECT_EQ(run("bad.sl"), 1);
+  EXPECT_EQ(run(""), 2);
+  EXPECT_EQ(run("--no-such-option good.sl"), 2);
+  EXPECT_EQ(run("-Wnonsense good.sl"), 2);
+  EXPECT_EQ(run("absent.sl"), 3);
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_EQ(run("--version"), 0);
+}
+
+TEST_F(Tool, goes_on_after_a_failure) {
+  write("shaders/a.sl", "surface a() { x }");
+  write("shaders/deep/b.sl", "surface b() {}");
+  EXPECT_EQ(run("-q shaders"), 1);
+  EXPECT_NE(output_.find("slc: 1 of 2 files failed:\n    shaders/a.sl\n"), std::string::npos) << output_;
+  EXPECT_TRUE(exists("b.slo"));
+}
+
+TEST_F(Tool, macros_and_include_folders_in_both_spellings) {
+  write("inc/k.h", "#define K 1\n");
+  write("a.sl", "#include \"k.h\"\n#if A != 2 || !defined(B) || defined(C) || !defined(ANEMONE)\n#error\n#endif\nsurface a() { Ci = K; }");
+  EXPECT_EQ(run("-Iinc -DA=2 -D B -DC -UC a.sl"), 0) << output_;
+  EXPECT_EQ(run("-I inc -D A=2 -DB -U C -D C a.sl"), 0) << output_;
+}
+
+TEST_F(Tool, standard_input_has_a_name) {
+  EXPECT_EQ(run("-s given.sl - < /dev/null"), 0);
+  write("bad.sl", "surface bad() { x }");
+  EXPECT_EQ(run("-s given.sl - < bad.sl"), 1);
+  EXPECT_EQ(output_.substr(0, 8), "given.sl");
+}
+
+TEST_F(Tool, dependencies) {
+  write("a.sl", "#include \"b.h\"\n#include <c.h>\nsurface a() {}");
+  write("b.h", "");
+  write("c.h", "");
+  EXPECT_EQ(run("-M -I. a.sl"), 0);
+  EXPECT_EQ(output_, "a.slo: a.sl \\\n  b.h \\\n  ./c.h\n");
+  EXPECT_EQ(run("-MM -I. -MT target a.sl"), 0);
+  EXPECT_EQ(output_, "target: a.sl \\\n  b.h\n");
+  EXPECT_EQ(run("-q -MMD -MF deps -I. a.sl"), 0) << output_;
+  EXPECT_EQ(read("deps"), "a.slo: a.sl \\\n  b.h\n");
+}
+
+TEST_F(Tool, warnings_have_switches) {
+  write("a.sl", "surface a() { float f = 1; }");
+  EXPECT_EQ(run("-q a.sl"), 0);
+  EXPECT_NE(output_.find("[-Wunused]"), std::string::npos) << output_;
+  EXPECT_EQ(run("-q -Wno-unused a.sl"), 0);
+  EXPECT_EQ(output_, "");
+  EXPECT_EQ(run("-q -nw a.sl"), 0);
+  EXPECT_EQ(output_, "");
+  EXPECT_EQ(run("-q -Werror a.sl"), 1);
+}
+
+TEST_F(Tool, preprocessed_text_compiles_to_the_same) {
+  write("lib.h", "float half(float x) { return x / 2; }\n");
+  write("a.sl", "#include \"lib.h\"\n#define K 3\nsurface a()\n{\n\n\n  Ci = half(K); }\n");
+  ASSERT_EQ(run("-E -o pre.sl a.sl"), 0) << output_;
+  EXPECT_NE(read("pre.sl").find("#line 3 \"a.sl\""), std::string::npos) << read("pre.sl");
+  EXPECT_EQ(run("-q pre.sl"), 0) << output_;
+}
+
+TEST_F(Tool, dumps_every_stage) {
+  write("a.sl", "surface a() { Ci = 1; }");
+  for (const char* stage : {"ast", "ir", "bytecode"}) {
+    EXPECT_EQ(run(std::string("--dump=") + stage + " a.sl"), 0);
+    EXPECT_NE(output_.find("a"), std::string::npos);
+    EXPECT_FALSE(exists("a.slo"));
+  }
+}
+
+} // namespace
