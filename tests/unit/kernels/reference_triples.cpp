@@ -1,3 +1,4 @@
+// The reference of functions of triples and matrices: reference.h.
 #include "tests/unit/kernels/reference.h"
 
 #include <algorithm>
