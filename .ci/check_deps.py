@@ -32,7 +32,7 @@ ALLOWED = {
     "stdlib": [],
     "stdlib/dso": ["public"],
     "python": ["slc", "public"],
-    "docs": ["slvm", "slc", "public"],
+    "docs": ["slvm", "slc/diag", "render/rib"],
     "tests": ["slc", "slvm", "render", "tests"],
     "tests/external": ["slc", "public"],
 }

@@ -1,5 +1,6 @@
-// Writes docs/shadeops.md and docs/instructions.md from the tables of slvm/format, which are the only place
-// where functions, tokens, variables and instructions are listed. Usage: generate_tables FOLDER
+// Writes the pages of docs/ that are lists: shadeops.md, instructions.md, requests.md, warnings.md, from the
+// tables which are the only place where functions, tokens, variables, instructions, RIB requests and compiler
+// messages are listed. Usage: generate_tables FOLDER
 #include "slvm/format/program.h"
 
 #include <cstdio>
@@ -128,6 +129,52 @@ std::string instructions_page() {
   return out;
 }
 
+std::string requests_page() {
+  struct Request {
+    std::string_view name, arguments, where, lacks, doc;
+  };
+  constexpr Request kRequests[] = {
+#define REQUEST(name, arguments, where, lacks, doc) {#name, arguments, where, lacks, doc},
+#include "render/rib/requests.def"
+#undef REQUEST
+  };
+  std::string out = std::string("# RIB requests\n\n") + kGenerated;
+  out += "Every request of the RenderMan interface is parsed. A request of the second table is not, or not "
+         "wholly, carried\n"
+         "out by this version; `slrender` says so once for each when a scene uses it.\n\n"
+         "## Carried out\n\n| request | arguments | |\n|---|---|---|\n";
+  std::string lacking = "\n## Parsed, with something lacking\n\n| request | then | |\n|---|---|---|\n";
+  for (const Request& r : kRequests) {
+    if (r.lacks.empty())
+      out += fmt::format("| `{}` | {} | {} |\n", r.name, escape(r.arguments), escape(r.doc));
+    else
+      lacking += fmt::format("| `{}` | {} | {} |\n", r.name, escape(r.lacks), escape(r.doc));
+  }
+  return out + lacking;
+}
+
+std::string warnings_page() {
+  constexpr std::pair<std::string_view, std::string_view> kMessages[] = {
+#define MSG(id, severity, warning_name, text) {warning_name, text},
+#include "slc/diag/messages.def"
+#undef MSG
+  };
+  std::map<std::string_view, std::vector<std::string_view>> by_name;
+  for (auto [name, text] : kMessages)
+    if (!name.empty()) by_name[name].push_back(text);
+  std::string out = std::string("# Warnings of slc\n\n") + kGenerated;
+  out += "`-Wno-NAME` silences a warning, `-WNAME` asks for one that is off by default, `#pragma nolint` "
+         "silences the next\n"
+         "line. `{}` stands for what the program says there.\n\n| name | texts |\n|---|---|\n";
+  for (auto& [name, texts] : by_name) {
+    std::string cell;
+    for (std::string_view text : texts)
+      cell += (cell.empty() ? "" : "<br>") + escape(text);
+    out += fmt::format("| `{}` | {} |\n", name, cell);
+  }
+  return out;
+}
+
 bool write(const std::string& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
   out << text;
@@ -142,8 +189,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::string folder = argv[1];
-  if (!write(folder + "/shadeops.md", shadeops_page()) ||
-      !write(folder + "/instructions.md", instructions_page())) {
+  bool ok = write(folder + "/shadeops.md", shadeops_page()) &&
+            write(folder + "/instructions.md", instructions_page()) &&
+            write(folder + "/requests.md", requests_page()) &&
+            write(folder + "/warnings.md", warnings_page());
+  if (!ok) {
     std::fputs("error: cannot write the pages\n", stderr);
     return 3;
   }

@@ -1,6 +1,7 @@
 // Parameter values: checked against the shader, transformed to "current" space, folded into the code.
 #include "slvm/exec/bind.h"
 
+#include "slvm/format/verify.h"
 #include "slvm/ir/emit.h"
 #include "slvm/ir/passes/passes.h"
 #include "slvm/ir/serialise.h"
@@ -85,12 +86,25 @@ Result<BoundValues> bind_values(const Program& program, std::span<const ParamVal
   return values;
 }
 
+namespace {
+
+/// A file may hold the IR of another shader: values bound by the program's parameters must fit the module's.
+bool belongs_to(const ir::Module& m, const Program& program) {
+  auto same = [](const Param& a, const Param& b) {
+    return a.name == b.name && a.type == b.type && a.elements == b.elements && a.varying == b.varying;
+  };
+  return m.kind == program.kind &&
+         std::equal(m.params.begin(), m.params.end(), program.params.begin(), program.params.end(), same);
+}
+
+} // namespace
+
 std::unique_ptr<const Program> specialise(const Program& program, const BoundValues& values,
                                           std::span<const std::string> may_vary,
                                           const ir::ConstantEvaluator& evaluator) {
   if (program.ir.empty()) return nullptr;
   Result<ir::Module> module = ir::deserialise(program.ir);
-  if (!module) return nullptr;
+  if (!module || !belongs_to(*module, program)) return nullptr;
   std::map<uint32_t, uint32_t> constant_of; // slot to index of its constant
   for (size_t i = 0; i < values.size() && i < module->params.size(); ++i) {
     const Param& p = module->params[i];
@@ -115,6 +129,7 @@ std::unique_ptr<const Program> specialise(const Program& program, const BoundVal
   auto out = std::make_unique<Program>(program);
   out->ir.clear();
   ir::emit(*module, *out);
+  if (!verify_program(*out).empty()) return nullptr; // sound IR can still ask for what no code may do
   return out;
 }
 
