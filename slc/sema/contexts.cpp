@@ -114,6 +114,7 @@ private:
   Instance root_;
   Frame frame_;
   std::map<const Variable*, VarState*> bound_; // variables of the expansions around this point
+  std::set<const FunctionDef*> open_functions_; // being expanded
   size_t expansions_ = 0;
   int hard_ = 0, soft_ = 0;
   int illuminance_ = 0, emission_ = 0; // loops around this point, callers' included
@@ -451,6 +452,7 @@ void ContextWalk::tokens(std::vector<TokenArg>& list, bool varying_output) {
 // A function of the source, expanded here.
 bool ContextWalk::inlined(CallExpr& e) {
   const FunctionDef& f = *e.function;
+  if (open_functions_.contains(&f)) return false; // recursion: an error already
   if (++expansions_ > kMaxInlinedCalls && !here().calls.contains(&e)) {
     gave_up_ = true;
     report(diags_, Msg::kTooManyCalls, shader_.where, shader_.name, kMaxInlinedCalls);
@@ -485,7 +487,9 @@ bool ContextWalk::inlined(CallExpr& e) {
   Frame outer = std::exchange(frame_, Frame{slot.get(), &f, control(), {}});
   auto outer_bound = bound_;
   for (auto& [formal, binding] : bindings) bound_[formal] = binding;
+  open_functions_.insert(&f);
   statement(f.body.get());
+  open_functions_.erase(&f);
   bound_ = std::move(outer_bound);
   frame_ = std::move(outer);
   return slot->result_varying && !f.result_uniform;

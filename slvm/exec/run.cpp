@@ -87,6 +87,7 @@ Planes ShaderRun::take_copy(const Slot& slot, const Planes& from) {
 }
 
 const Planes* ShaderRun::primvar_for(size_t i) const {
+  if (program.kind == ShaderKind::kLight) return nullptr; // they belong to the surface that is lit
   const Slot& slot = program.slots[i];
   const Planes* primvar = state.grid->primvar(slot.name);
   return primvar && primvar->type == slot.type && primvar->elements == slot.elements ? primvar : nullptr;

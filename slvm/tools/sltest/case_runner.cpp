@@ -40,7 +40,7 @@ public:
     if (!case_.bind_error.empty()) return fail("binding should fail, but it succeeds");
     if (!case_.compile_error.empty()) return fail("compiling should fail, but it succeeds");
     for (CheckFailure& f : check(case_, prepared_, result, library_)) {
-      f.text += fmt::format(" [{}]", case_.name);
+      f.text += variant("");
       report_.failures.push_back(std::move(f));
     }
     if (!report_.failures.empty() || options_.quick || case_.quick) return;
@@ -50,7 +50,17 @@ public:
 
 private:
   void fail(const std::string& text) {
-    report_.failures.push_back({case_.where, fmt::format("{} [{}]", text, case_.name)});
+    // Text that begins with a place of its own needs no other.
+    const bool placed = text.starts_with(case_.where.file + ":");
+    report_.failures.push_back({placed ? Where() : case_.where, text + variant("")});
+  }
+
+  /// Which variant of a table it is, and which target, in brackets.
+  std::string variant(const std::string& target) const {
+    std::string text = case_.name.substr(std::min(report_.test->name.size(), case_.name.size()));
+    if (text.starts_with(", ")) text.erase(0, 2);
+    if (!target.empty()) text += (text.empty() ? "on " : ", on ") + target;
+    return text.empty() ? "" : fmt::format(" [{}]", text);
   }
 
   /// An error that the case may expect.
@@ -117,7 +127,7 @@ private:
       RunResult result;
       if (!rerun(config, result)) return;
       for (CheckFailure& f : check(case_, prepared_, result, library_)) {
-        f.text += fmt::format(" [{}; on {}]", case_.name, target);
+        f.text += variant(target);
         report_.failures.push_back(std::move(f));
       }
     }

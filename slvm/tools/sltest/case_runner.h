@@ -14,6 +14,7 @@ struct RunnerOptions {
   RunConfig config;   ///< the one that expectations are checked in
 };
 
+/// Failures without a place (an empty file name) name one in their text.
 struct CaseReport {
   const Case* test = nullptr;
   std::vector<CheckFailure> failures;

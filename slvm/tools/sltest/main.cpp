@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -76,7 +77,9 @@ int run_tests(const Options& options, ShaderLibrary& library) {
     if (!run_file(name, text, options, library, reports)) status = std::max<int>(status, kFailed);
   }
   if (options.list) return status;
-  print(stdout, summary_text(reports));
+  const auto empty = [](const FileReport& r) { return r.cases.empty(); };
+  if (status == kOk || !std::all_of(reports.begin(), reports.end(), empty))
+    print(stdout, summary_text(reports));
   if (!options.junit.empty()) {
     const std::string text = junit_text(reports);
     auto written = write_file(options.junit, std::as_bytes(std::span(text.data(), text.size())));

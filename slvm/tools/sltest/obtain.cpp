@@ -41,8 +41,10 @@ ShaderPtr obtain(const Setup& setup, const ShaderRef& ref, std::span<const Forma
   if (ref.form == ShaderForm::kFile) {
     shader = library.find(ref.text, opt_level, setup.path, why);
   } else if (ref.form == ShaderForm::kSource) {
-    std::string source = fmt::format("#line {} \"{}\"\n{}", text_line(ref), ref.where.file, ref.text);
-    shader = library.compile(ref.where.file, source, opt_level, setup.path, why);
+    std::string source = fmt::format("#line {} \"{}\"\n", text_line(ref), ref.where.file);
+    if (ref.text.find('\n') == std::string::npos) source.append(std::max(ref.where.column, 1u) - 1, ' ');
+    source += ref.text;
+    shader = library.compile("<source>", source, opt_level, setup.path, why);
   } else {
     shader = obtain_expression(setup, ref, formals, library, opt_level, why);
   }

@@ -185,7 +185,7 @@ void add_common_options(CLI::App& app, Options& o, Texts& texts) {
   app.add_option("--path", texts.path,
                  "Folders, separated by colons, in which shaders and what they include are searched");
   app.add_option("--target", o.config.target,
-                 "Instruction set: AVX3, AVX2, SSE4, EMU128... (the best there is)");
+                 "Instruction set: AVX3, AVX2, SSE4, SCALAR... (the best there is)");
   app.add_option("--strip", o.config.strip, "Points a strip, a multiple of 16 (128)")
       ->type_name("N")
       ->check([](const std::string& text) {

@@ -24,8 +24,10 @@ std::string escaped(std::string_view text) {
 
 std::string failures_text(const CaseReport& r) {
   std::string text;
-  for (size_t i = 0; i < r.failures.size() && i < kShownFailures; ++i)
-    text += fmt::format("{}: {}\n", to_string(r.failures[i].where), r.failures[i].text);
+  for (size_t i = 0; i < r.failures.size() && i < kShownFailures; ++i) {
+    const CheckFailure& f = r.failures[i];
+    text += f.where.file.empty() ? f.text + '\n' : fmt::format("{}: {}\n", to_string(f.where), f.text);
+  }
   if (r.failures.size() > kShownFailures)
     text += fmt::format("and {} more\n", r.failures.size() - kShownFailures);
   return text;
@@ -91,7 +93,8 @@ std::string junit_text(const std::deque<FileReport>& reports) {
         text += "/>\n";
       else
         text += fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
-                            escaped(r.failures[0].text), escaped(failures_text(r)));
+                            escaped(r.failures[0].text.substr(0, r.failures[0].text.find('\n'))),
+                            escaped(failures_text(r)));
     }
     text += "  </testsuite>\n";
   }

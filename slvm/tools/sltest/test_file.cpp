@@ -63,7 +63,8 @@ private:
       if (!d) return source_.error(node, d.error());
       if (!d->type) d->type = Type::kFloat;
       if (find_global(d->name) != Global::kCount)
-        return source_.error(node, fmt::format("'{}' is a predefined variable; give the column another name", d->name));
+        return source_.error(
+            node, fmt::format("'{}' is a predefined variable; give the column another name", d->name));
       result.columns.push_back(*d);
     }
     for (const toml::node& node : *rows) {
