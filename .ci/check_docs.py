@@ -9,7 +9,7 @@ TOP = ("slc", "slvm", "stdlib", "shaders", "render", "tests", "python", "docs", 
 
 
 def named_paths(text):
-    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    text = re.sub(r"^```.*?^```|^    [^\n]*$", "", text, flags=re.M | re.S)  # code
     for target in re.findall(r"\]\(([^)#\s]+)", text):
         if "://" not in target:
             yield target
