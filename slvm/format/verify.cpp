@@ -50,12 +50,7 @@ private:
   void check_param(const Param& p) const {
     if (p.type == Type::kVoid || p.type == Type::kBool || p.elements > kMaxUniformPlanes)
       throw Failure{fmt::format("parameter '{}' has no proper type", p.name)};
-    const Value& v = p.default_value;
-    size_t count = p.elements ? p.elements : 1;
-    if (p.default_known &&
-        (v.type != p.type || v.elements != p.elements ||
-         (p.type == Type::kString ? v.strings.size() != count
-                                  : v.numbers.size() != count * static_cast<size_t>(components(p.type)))))
+    if (!default_fits(p))
       throw Failure{fmt::format("the default of parameter '{}' does not fit its type", p.name)};
     if (p.slot < -1 || p.slot >= static_cast<int32_t>(p_.slots.size()))
       throw Failure{"a parameter without variable"};
@@ -437,6 +432,15 @@ private:
 };
 
 } // namespace
+
+bool default_fits(const Param& param) {
+  if (!param.default_known) return true;
+  const Value& v = param.default_value;
+  size_t count = param.elements ? param.elements : 1;
+  size_t numbers = param.type == Type::kString ? 0 : count * static_cast<size_t>(components(param.type));
+  size_t strings = param.type == Type::kString ? count : 0;
+  return v.type == param.type && v.elements == param.elements && v.numbers.size() == numbers && v.strings.size() == strings;
+}
 
 std::string verify_program(const Program& program) {
   try { // exceptions stay inside this function: the checks are many and nested

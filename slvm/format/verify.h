@@ -14,6 +14,9 @@ inline constexpr uint32_t kMaxPlanes = 1u << 16;
 inline constexpr uint32_t kMaxUniformPlanes = 1u << 20; ///< tables in uniform arrays are large
 inline constexpr uint32_t kMaxMaskDepth = 256;
 
+/// Whether the default of a parameter, if it is known, has the type and the length that the parameter has.
+bool default_fits(const Param& param);
+
 /// "" when sound, else what is wrong, with the word of code concerned.
 std::string verify_program(const Program& program);
 

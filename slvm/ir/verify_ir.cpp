@@ -61,6 +61,9 @@ private:
     if (p.slot < -1 || p.slot >= static_cast<int32_t>(m_.slots.size()) || p.init < -1 ||
         p.init >= static_cast<int32_t>(m_.inits.size()) || (p.init >= 0 && p.slot < 0))
       throw Failure{fmt::format("parameter '{}' has no variable or no default", p.name)};
+    if (!is_storable(p.type) || p.elements > kMaxUniformPlanes || !default_fits(p) ||
+        (p.init < 0 && !p.default_known))
+      throw Failure{fmt::format("the default of parameter '{}' does not fit its type", p.name)};
     if (p.slot < 0) return;
     const Slot& s = m_.slots[static_cast<size_t>(p.slot)];
     if (!s.parameter || s.type != p.type || s.elements != p.elements || s.varying != p.varying)
@@ -352,9 +355,16 @@ private:
       value_is(inst.args[i], kFixed[4 - fixed][i]);
     require(inst.index <= 1, "an index out of bounds");
     if (loop) return carried(inst);
+    for (Global g : {Global::kL, Global::kPs, Global::kNs})
+      require(has_slot(g), "a light cone without L, Ps and Ns");
     same_types(std::span(inst.args).subspan(fixed), inst.results);
     require(inst.regions[0].params.empty(), "a light cone with parameters");
     region(inst.regions[0], &inst);
+  }
+
+  bool has_slot(Global g) const {
+    return std::any_of(m_.slots.begin(), m_.slots.end(),
+                       [&](const Slot& s) { return !s.parameter && s.name == global_info(g).name; });
   }
 
   void check_yield(const Inst& inst) const {

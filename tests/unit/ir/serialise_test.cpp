@@ -114,8 +114,9 @@ TEST(Serialise, DamagedBytesNeverDoHarm) {
       optimise(*back, round % 3, nullptr);
       ASSERT_EQ(verify_module(*back), "") << name << ", after the passes:\n" << print(*back);
       Program program;
+      program.kind = back->kind;
       emit(*back, program);
-      verify_program(program);
+      ASSERT_EQ(verify_program(program), "") << name << ":\n" << print(*back);
     }
   }
   EXPECT_GT(accepted, 100); // the test reaches what it is about

@@ -37,14 +37,5 @@ TEST(Specialise, IgnoresTheIrOfAnotherShader) {
   EXPECT_EQ(bind(program)->program().code, program.code);
 }
 
-TEST(Specialise, IgnoresIrWhoseCodeWouldNotVerify) {
-  Program program = ir::compile(ir::cone_light());
-  ir::Module m = ir::cone_light();
-  for (Slot& slot : m.slots) // what light statements set and test
-    if (slot.name == "Ns") slot.name = "Ps", slot.type = Type::kPoint;
-  program.ir = ir::compile(std::move(m)).ir;
-  EXPECT_EQ(bind(program)->program().code, program.code);
-}
-
 } // namespace
 } // namespace slvm
