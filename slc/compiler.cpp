@@ -14,8 +14,8 @@ Compiler::Compiler() {
   if (diags.has_errors()) builtins_error_ = slvm::format_diagnostics(diags, sources);
 }
 
-PreprocessedText Compiler::preprocess(slvm::FileId main, const CompileOptions& options, slvm::SourceManager& sources,
-                                      slvm::Diagnostics& diags) const {
+PreprocessedText Compiler::preprocess(slvm::FileId main, const CompileOptions& options,
+                                      slvm::SourceManager& sources, slvm::Diagnostics& diags) const {
   PreprocessOptions complete = options.preprocess;
   complete.defines.push_back("ANEMONE=1");
   if (!options.standard_include.empty()) complete.include_dirs.push_back(options.standard_include);

@@ -23,8 +23,8 @@ struct CompileOptions {
   std::string standard_include;
   /// 0: code as written; 1: folding, copies, common subexpressions, dead code; 2: also code motion.
   int optimise = 2;
-  /// Computes calls of constants (slvm/evaluator.h has one that runs the machine's kernels). Null: they stay calls, and
-  /// defaults of parameters that are computed stay unknown to introspection.
+  /// Computes calls of constants (slvm/evaluator.h has one that runs the machine's kernels). Null: they stay
+  /// calls, and defaults of parameters that are computed stay unknown to introspection.
   const slvm::ir::ConstantEvaluator* evaluator = nullptr;
 };
 
@@ -40,8 +40,8 @@ struct CheckedSource {
   TranslationUnit unit;
 };
 
-/// Holds what all compilations share: the RSL bodies of built-in functions. One compiler serves any number of threads;
-/// sources and diagnostics belong to one compilation each.
+/// Holds what all compilations share: the RSL bodies of built-in functions. One compiler serves any number of
+/// threads; sources and diagnostics belong to one compilation each.
 class Compiler {
 public:
   Compiler();

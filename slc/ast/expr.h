@@ -197,17 +197,18 @@ struct TokenArg {
 };
 
 /// A call. Exactly one of these holds:
-///   - `function` set: a function of the source or the RSL body of a built-in, to be inlined. `args` are parallel
-///     to function->formals: output formals get a place (VariableExpr or IndexExpr), array formals a whole array as
-///     VariableExpr, others a value of the formal's type. Never recursive. `tokens` is empty.
+///   - `function` set: a function of the source or the RSL body of a built-in, to be inlined. `args` are
+///   parallel
+///     to function->formals: output formals get a place (VariableExpr or IndexExpr), array formals a whole
+///     array as VariableExpr, others a value of the formal's type. Never recursive. `tokens` is empty.
 ///   - else `shadeop` is the row to call. `args` are its positional arguments; args[i] belongs to
-///     signature.param(i). An `output` or `inout` parameter gets a place (any: of any type, arrays included); `any`
-///     inputs are unconverted. Calls of kFoldLeft rows have been split into calls of two arguments. Channel
-///     selections, texture(name[c], ...), have become an argument of their own (the row's parameter "channel"; 0
-///     where none is written). `tokens` holds the token-value pairs.
-/// Places and whole arrays have the type asked for, or both are among point, vector and normal: then the components
-/// are taken and stored as they are.
-/// A call of random() with detail kUniform goes straight into a declared uniform: one draw per grid.
+///     signature.param(i). An `output` or `inout` parameter gets a place (any: of any type, arrays included);
+///     `any` inputs are unconverted. Calls of kFoldLeft rows have been split into calls of two arguments.
+///     Channel selections, texture(name[c], ...), have become an argument of their own (the row's parameter
+///     "channel"; 0 where none is written). `tokens` holds the token-value pairs.
+/// Places and whole arrays have the type asked for, or both are among point, vector and normal: then the
+/// components are taken and stored as they are. A call of random() with detail kUniform goes straight into a
+/// declared uniform: one draw per grid.
 struct CallExpr : ExprOf<ExprKind::kCall> {
   std::string name;
   SourceRange name_range;

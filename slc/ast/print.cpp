@@ -9,10 +9,14 @@ namespace {
 std::string quoted(std::string_view text) {
   std::string out(1, '"');
   for (char c : text) {
-    if (c == '\n') out += "\\n";
-    else if (c == '\t') out += "\\t";
-    else if (c == '"' || c == '\\') (out += '\\') += c;
-    else out += c;
+    if (c == '\n')
+      out += "\\n";
+    else if (c == '\t')
+      out += "\\t";
+    else if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else
+      out += c;
   }
   out += '"';
   return out;
@@ -20,8 +24,10 @@ std::string quoted(std::string_view text) {
 
 std::string type_text(Type type, int array_length) {
   std::string text(slvm::type_name(type));
-  if (array_length == kOpenArray) text += "[]";
-  else if (array_length != kNotArray) text += fmt::format("[{}]", array_length);
+  if (array_length == kOpenArray)
+    text += "[]";
+  else if (array_length != kNotArray)
+    text += fmt::format("[{}]", array_length);
   return text;
 }
 
@@ -30,17 +36,19 @@ public:
   std::string take() { return std::move(out_); }
 
   void unit(const TranslationUnit& unit) {
-    for (const Annotation& a : unit.annotations) line(fmt::format("annotation {} {}", quoted(a.id), quoted(a.text)));
-    for (const FunctionDef& f : unit.functions) function(f);
-    for (const Shader& s : unit.shaders) shader(s);
+    for (const Annotation& a : unit.annotations)
+      line(fmt::format("annotation {} {}", quoted(a.id), quoted(a.text)));
+    for (const FunctionDef& f : unit.functions)
+      function(f);
+    for (const Shader& s : unit.shaders)
+      shader(s);
   }
   void expression(const Expr& e);
 
 private:
   // A line at the current depth.
   void line(std::string_view text) { out_ += fmt::format("{:{}}{}\n", "", 2 * depth_, text); }
-  template <class F>
-  void nested(F&& f) {
+  template <class F> void nested(F&& f) {
     ++depth_;
     f();
     --depth_;
@@ -49,7 +57,8 @@ private:
     if (e) nested([&] { expression(*e); });
   }
   void children(const std::vector<ExprPtr>& list) {
-    for (const ExprPtr& e : list) child(e);
+    for (const ExprPtr& e : list)
+      child(e);
   }
   void labelled(std::string_view label, const ExprPtr& e) {
     if (!e) return;
@@ -74,7 +83,8 @@ private:
   // "head : uniform float", without the type as long as there is none.
   void typed(const Expr& e, std::string head) {
     if (e.type != Type::kVoid)
-      head += fmt::format(" : {} {}", e.detail == Detail::kUniform ? "uniform" : "varying", type_text(e.type, e.array_length));
+      head += fmt::format(" : {} {}", e.detail == Detail::kUniform ? "uniform" : "varying",
+                          type_text(e.type, e.array_length));
     line(head);
   }
   static std::string row(ShadeopId id) {
@@ -99,15 +109,11 @@ void Printer::expression(const Expr& e) {
   case ExprKind::kNumber: return typed(e, fmt::format("{}", as<NumberExpr>(&e)->value));
   case ExprKind::kString: return typed(e, quoted(as<StringExpr>(&e)->value));
   case ExprKind::kVariable: return typed(e, as<VariableExpr>(&e)->name);
-  case ExprKind::kIndex:
-    typed(e, as<IndexExpr>(&e)->name + "[]");
-    return child(as<IndexExpr>(&e)->index);
+  case ExprKind::kIndex: typed(e, as<IndexExpr>(&e)->name + "[]"); return child(as<IndexExpr>(&e)->index);
   case ExprKind::kTuple:
     typed(e, "tuple" + row(as<TupleExpr>(&e)->shadeop));
     return children(as<TupleExpr>(&e)->elements);
-  case ExprKind::kArrayInit:
-    typed(e, "elements");
-    return children(as<ArrayInitExpr>(&e)->elements);
+  case ExprKind::kArrayInit: typed(e, "elements"); return children(as<ArrayInitExpr>(&e)->elements);
   case ExprKind::kOperator:
     typed(e, std::string(operator_text(as<OperatorExpr>(&e)->op)) + row(as<OperatorExpr>(&e)->shadeop));
     return children(as<OperatorExpr>(&e)->operands);
@@ -121,11 +127,13 @@ void Printer::expression(const Expr& e) {
     child(as<ConditionalExpr>(&e)->then_value);
     return child(as<ConditionalExpr>(&e)->else_value);
   case ExprKind::kConvert:
-    typed(e, (as<ConvertExpr>(&e)->shadeop == kNoShadeop ? "retype" : "convert") + row(as<ConvertExpr>(&e)->shadeop));
+    typed(e, (as<ConvertExpr>(&e)->shadeop == kNoShadeop ? "retype" : "convert") +
+                 row(as<ConvertExpr>(&e)->shadeop));
     return child(as<ConvertExpr>(&e)->operand);
   case ExprKind::kCast: {
     const auto& cast = *as<CastExpr>(&e);
-    typed(e, fmt::format("cast {}{}", slvm::type_name(cast.target), cast.has_space ? fmt::format(" {}", quoted(cast.space)) : ""));
+    typed(e, fmt::format("cast {}{}", slvm::type_name(cast.target),
+                         cast.has_space ? fmt::format(" {}", quoted(cast.space)) : ""));
     return child(cast.operand);
   }
   case ExprKind::kCall: {
@@ -155,10 +163,11 @@ void Printer::variable(const Variable& v, std::string_view what) {
 }
 
 void Printer::function(const FunctionDef& f) {
-  line(fmt::format("function {}{}{} {}", f.result_given ? "" : "(implicit) ", f.result_uniform ? "uniform " : "",
-                   slvm::type_name(f.result), f.name));
+  line(fmt::format("function {}{}{} {}", f.result_given ? "" : "(implicit) ",
+                   f.result_uniform ? "uniform " : "", slvm::type_name(f.result), f.name));
   nested([&] {
-    for (const Variable* v : f.formals) variable(*v, "formal");
+    for (const Variable* v : f.formals)
+      variable(*v, "formal");
     if (f.body) statement(*f.body);
   });
 }
@@ -166,8 +175,10 @@ void Printer::function(const FunctionDef& f) {
 void Printer::shader(const Shader& s) {
   line(fmt::format("{} {}", slvm::shader_kind_name(s.kind), s.name));
   nested([&] {
-    for (const Annotation& a : s.annotations) line(fmt::format("annotation {} {}", quoted(a.id), quoted(a.text)));
-    for (const Variable* v : s.params) variable(*v, "parameter");
+    for (const Annotation& a : s.annotations)
+      line(fmt::format("annotation {} {}", quoted(a.id), quoted(a.text)));
+    for (const Variable* v : s.params)
+      variable(*v, "parameter");
     if (s.body) statement(*s.body);
   });
 }
@@ -211,7 +222,8 @@ void Printer::statement(const Stmt& s) {
   case StmtKind::kBlock:
     line("block");
     return nested([&] {
-      for (const StmtPtr& child : as<BlockStmt>(&s)->statements) statement(*child);
+      for (const StmtPtr& child : as<BlockStmt>(&s)->statements)
+        statement(*child);
     });
   case StmtKind::kDeclaration:
     for (const Variable* v : as<DeclarationStmt>(&s)->variables)
@@ -219,7 +231,8 @@ void Printer::statement(const Stmt& s) {
     return;
   case StmtKind::kFunction: return line(fmt::format("function {}", as<FunctionStmt>(&s)->function->name));
   case StmtKind::kExpression:
-    for (const ExprPtr& e : as<ExpressionStmt>(&s)->expressions) expression(*e);
+    for (const ExprPtr& e : as<ExpressionStmt>(&s)->expressions)
+      expression(*e);
     return;
   case StmtKind::kIf:
     line("if");
@@ -231,11 +244,13 @@ void Printer::statement(const Stmt& s) {
     line(loop.is_for ? "for" : "while");
     labelled("init", loop.init);
     labelled("condition", loop.condition);
-    for (const ExprPtr& step : loop.steps) labelled("step", step);
+    for (const ExprPtr& step : loop.steps)
+      labelled("step", step);
     return labelled("body", loop.body);
   }
   case StmtKind::kJump:
-    return line(fmt::format("{} {}", as<JumpStmt>(&s)->is_break ? "break" : "continue", as<JumpStmt>(&s)->levels));
+    return line(
+        fmt::format("{} {}", as<JumpStmt>(&s)->is_break ? "break" : "continue", as<JumpStmt>(&s)->levels));
   case StmtKind::kReturn: line("return"); return child(as<ReturnStmt>(&s)->value);
   case StmtKind::kIlluminance: return light_loop(*as<IlluminanceStmt>(&s));
   case StmtKind::kEmission: return emission(*as<EmissionStmt>(&s));

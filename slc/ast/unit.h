@@ -21,8 +21,9 @@ struct Variable {
   SourceRange where;
   Type type = Type::kVoid;
   int array_length = kNotArray; ///< kOpenArray for formals `T a[]` only
-  /// As declared; without a declaration (`detail_given` false) parameters are uniform, locals and formals as inferred.
-  /// A local declared uniform can vary in fact: when it is set under varying control, which is a warning.
+  /// As declared; without a declaration (`detail_given` false) parameters are uniform, locals and formals as
+  /// inferred. A local declared uniform can vary in fact: when it is set under varying control, which is a
+  /// warning.
   Detail detail = Detail::kUniform;
   bool detail_given = false;
   bool output = false;

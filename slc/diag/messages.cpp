@@ -14,13 +14,16 @@ constexpr MessageInfo kMessages[] = {
 
 } // namespace
 
-const MessageInfo& message_info(Msg id) { return kMessages[static_cast<size_t>(id)]; }
+const MessageInfo& message_info(Msg id) {
+  return kMessages[static_cast<size_t>(id)];
+}
 
 const std::vector<WarningGroup>& warning_groups() {
   static const std::vector<WarningGroup> kGroups = [] {
     WarningGroup all{"all", {}};
     for (const MessageInfo& info : kMessages)
-      if (!info.warning_name.empty() && std::find(all.members.begin(), all.members.end(), info.warning_name) == all.members.end())
+      if (!info.warning_name.empty() &&
+          std::find(all.members.begin(), all.members.end(), info.warning_name) == all.members.end())
         all.members.push_back(info.warning_name);
     return std::vector<WarningGroup>{
         all,

@@ -34,7 +34,8 @@ const std::vector<std::string_view>& warnings_off_by_default();
 /// The warnings `name` stands for: itself or a group's members; empty when there is no such warning.
 std::vector<std::string_view> warnings_named(std::string_view name);
 
-/// Reports message `id` with its arguments filled in; notes can be attached to the result until the next report.
+/// Reports message `id` with its arguments filled in; notes can be attached to the result until the next
+/// report.
 template <class... Args>
 slvm::Diagnostic& report(slvm::Diagnostics& diags, Msg id, slvm::SourceRange where, const Args&... args) {
   const MessageInfo& info = message_info(id);

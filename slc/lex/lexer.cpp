@@ -15,9 +15,15 @@ using slvm::SourceRange;
 
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_name_start(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_name(char c) { return is_name_start(c) || is_digit(c); }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_name_start(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_name(char c) {
+  return is_name_start(c) || is_digit(c);
+}
 
 struct Punctuator {
   std::string_view text;
@@ -25,18 +31,18 @@ struct Punctuator {
 };
 // Longer ones first.
 constexpr Punctuator kPunctuators[] = {
-    {"->", TokenKind::kArrow},       {"+=", TokenKind::kPlusAssign},   {"-=", TokenKind::kMinusAssign},
-    {"*=", TokenKind::kStarAssign},  {"/=", TokenKind::kSlashAssign},  {"==", TokenKind::kEqual},
-    {"!=", TokenKind::kNotEqual},    {"<=", TokenKind::kLessEqual},    {">=", TokenKind::kGreaterEqual},
-    {"&&", TokenKind::kAnd},         {"||", TokenKind::kOr},           {"++", TokenKind::kForeign},
-    {"--", TokenKind::kForeign},     {"+", TokenKind::kPlus},          {"-", TokenKind::kMinus},
-    {"*", TokenKind::kStar},         {"/", TokenKind::kSlash},         {".", TokenKind::kDot},
-    {"^", TokenKind::kCaret},        {"=", TokenKind::kAssign},        {"<", TokenKind::kLess},
-    {">", TokenKind::kGreater},      {"!", TokenKind::kNot},           {"?", TokenKind::kQuestion},
-    {":", TokenKind::kColon},        {"(", TokenKind::kLeftParen},     {")", TokenKind::kRightParen},
-    {"{", TokenKind::kLeftBrace},    {"}", TokenKind::kRightBrace},    {"[", TokenKind::kLeftBracket},
-    {"]", TokenKind::kRightBracket}, {",", TokenKind::kComma},         {";", TokenKind::kSemicolon},
-    {"%", TokenKind::kForeign},      {"&", TokenKind::kForeign},       {"|", TokenKind::kForeign},
+    {"->", TokenKind::kArrow},       {"+=", TokenKind::kPlusAssign},  {"-=", TokenKind::kMinusAssign},
+    {"*=", TokenKind::kStarAssign},  {"/=", TokenKind::kSlashAssign}, {"==", TokenKind::kEqual},
+    {"!=", TokenKind::kNotEqual},    {"<=", TokenKind::kLessEqual},   {">=", TokenKind::kGreaterEqual},
+    {"&&", TokenKind::kAnd},         {"||", TokenKind::kOr},          {"++", TokenKind::kForeign},
+    {"--", TokenKind::kForeign},     {"+", TokenKind::kPlus},         {"-", TokenKind::kMinus},
+    {"*", TokenKind::kStar},         {"/", TokenKind::kSlash},        {".", TokenKind::kDot},
+    {"^", TokenKind::kCaret},        {"=", TokenKind::kAssign},       {"<", TokenKind::kLess},
+    {">", TokenKind::kGreater},      {"!", TokenKind::kNot},          {"?", TokenKind::kQuestion},
+    {":", TokenKind::kColon},        {"(", TokenKind::kLeftParen},    {")", TokenKind::kRightParen},
+    {"{", TokenKind::kLeftBrace},    {"}", TokenKind::kRightBrace},   {"[", TokenKind::kLeftBracket},
+    {"]", TokenKind::kRightBracket}, {",", TokenKind::kComma},        {";", TokenKind::kSemicolon},
+    {"%", TokenKind::kForeign},      {"&", TokenKind::kForeign},      {"|", TokenKind::kForeign},
     {"~", TokenKind::kForeign},
 };
 
@@ -53,7 +59,8 @@ public:
       : input_(input), text_(input.text), diags_(diags) {}
 
   TokenList run() {
-    while (next_token()) {}
+    while (next_token()) {
+    }
     Token end;
     end.range = range(text_.empty() ? 0 : text_.size() - 1, text_.size());
     end.text = "end of file";
@@ -91,7 +98,8 @@ SourceRange Lexer::range(size_t begin, size_t end) const {
   const std::vector<Piece>& pieces = input_.pieces;
   if (pieces.empty()) return {};
   if (pieces[piece_].offset > begin) piece_ = 0;
-  while (piece_ + 1 < pieces.size() && pieces[piece_ + 1].offset <= begin) ++piece_;
+  while (piece_ + 1 < pieces.size() && pieces[piece_ + 1].offset <= begin)
+    ++piece_;
   const Piece& piece = pieces[piece_];
   SourceRange r = piece.at;
   if (piece.exact) {
@@ -126,11 +134,16 @@ bool Lexer::next_token() {
   if (at_ >= text_.size()) return false;
   char c = peek();
   bool line_start = std::exchange(line_start_, false);
-  if (c == '#' && line_start) lex_pragma();
-  else if (is_digit(c) || (c == '.' && is_digit(peek(1)) && !dot_is_operator())) lex_number();
-  else if (is_name_start(c)) lex_name();
-  else if (c == '"') lex_string();
-  else lex_punctuator();
+  if (c == '#' && line_start)
+    lex_pragma();
+  else if (is_digit(c) || (c == '.' && is_digit(peek(1)) && !dot_is_operator()))
+    lex_number();
+  else if (is_name_start(c))
+    lex_name();
+  else if (c == '"')
+    lex_string();
+  else
+    lex_punctuator();
   return true;
 }
 
@@ -166,7 +179,8 @@ void Lexer::lex_pragma() {
 void Lexer::lex_number() {
   size_t begin = at_;
   auto skip_digits = [&] {
-    while (is_digit(peek())) ++at_;
+    while (is_digit(peek()))
+      ++at_;
   };
   bool hex = peek() == '0' && (peek(1) == 'x' || peek(1) == 'X');
   skip_digits();
@@ -193,12 +207,16 @@ void Lexer::lex_number() {
     report(diags_, Msg::kNumberRange, token.range, token.text);
   }
   if (is_name(peek())) {
-    while (is_name(peek())) ++at_;
+    while (is_name(peek()))
+      ++at_;
     Token whole = make(TokenKind::kNumber, begin);
     std::string_view suffix = std::string_view(whole.text).substr(token.text.size());
-    if (hex) report(diags_, Msg::kHexNumber, whole.range, whole.text);
-    else if (suffix == "f" || suffix == "F") report(diags_, Msg::kFloatSuffix, whole.range, whole.text);
-    else report(diags_, Msg::kBadNumber, whole.range, whole.text);
+    if (hex)
+      report(diags_, Msg::kHexNumber, whole.range, whole.text);
+    else if (suffix == "f" || suffix == "F")
+      report(diags_, Msg::kFloatSuffix, whole.range, whole.text);
+    else
+      report(diags_, Msg::kBadNumber, whole.range, whole.text);
     token.range = whole.range;
     token.text = whole.text;
   }
@@ -207,7 +225,8 @@ void Lexer::lex_number() {
 
 void Lexer::lex_name() {
   size_t begin = at_;
-  while (is_name(peek())) ++at_;
+  while (is_name(peek()))
+    ++at_;
   push(make(TokenKind::kIdentifier, begin));
 }
 
@@ -217,7 +236,8 @@ void Lexer::lex_string() {
   while (peek() != '"' && peek() != '\n' && at_ < text_.size()) {
     if (peek() == '\\') {
       size_t escape = at_;
-      if (!take_escape(value)) report(diags_, Msg::kUnknownEscape, range(escape, at_), text_.substr(escape, at_ - escape));
+      if (!take_escape(value))
+        report(diags_, Msg::kUnknownEscape, range(escape, at_), text_.substr(escape, at_ - escape));
     } else {
       value += text_[at_++];
     }
@@ -237,7 +257,8 @@ size_t Lexer::take_escape(std::string& value) {
   char c = peek();
   if (c >= '0' && c <= '7') {
     int code = 0, digits = 0;
-    for (; digits < 3 && peek() >= '0' && peek() <= '7'; ++digits) code = code * 8 + (text_[at_++] - '0');
+    for (; digits < 3 && peek() >= '0' && peek() <= '7'; ++digits)
+      code = code * 8 + (text_[at_++] - '0');
     value += static_cast<char>(code);
     return static_cast<size_t>(digits);
   }
@@ -258,14 +279,19 @@ void Lexer::lex_punctuator() {
   }
   // A run of bytes outside ASCII is one character, or a few: one message.
   bool foreign = static_cast<unsigned char>(peek()) >= 0x80;
-  do ++at_;
+  do
+    ++at_;
   while (foreign && static_cast<unsigned char>(peek()) >= 0x80);
-  if (foreign) report(diags_, Msg::kForeignCharacter, range(begin, at_));
-  else report(diags_, Msg::kBadCharacter, range(begin, at_), text_.substr(begin, 1));
+  if (foreign)
+    report(diags_, Msg::kForeignCharacter, range(begin, at_));
+  else
+    report(diags_, Msg::kBadCharacter, range(begin, at_), text_.substr(begin, 1));
 }
 
 } // namespace
 
-TokenList lex(const PreprocessedText& text, slvm::Diagnostics& diags) { return Lexer(text, diags).run(); }
+TokenList lex(const PreprocessedText& text, slvm::Diagnostics& diags) {
+  return Lexer(text, diags).run();
+}
 
 } // namespace slc

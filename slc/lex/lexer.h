@@ -1,5 +1,6 @@
-// The lexer: preprocessed text to tokens with source ranges. RSL has no reserved words here: `surface`, `gather`, `if`
-// and `float` are all identifiers, and the parser takes them for keywords where its grammar can.
+// The lexer: preprocessed text to tokens with source ranges. RSL has no reserved words here: `surface`,
+// `gather`, `if` and `float` are all identifiers, and the parser takes them for keywords where its grammar
+// can.
 #pragma once
 
 #include "slc/preprocess/preprocess.h"
@@ -11,10 +12,41 @@
 namespace slc {
 
 enum class TokenKind : uint8_t {
-  kEnd, kIdentifier, kNumber, kString,
-  kPlus, kMinus, kStar, kSlash, kDot, kCaret, kAssign, kPlusAssign, kMinusAssign, kStarAssign, kSlashAssign,
-  kEqual, kNotEqual, kLess, kLessEqual, kGreater, kGreaterEqual, kAnd, kOr, kNot, kQuestion, kColon,
-  kLeftParen, kRightParen, kLeftBrace, kRightBrace, kLeftBracket, kRightBracket, kComma, kSemicolon, kArrow,
+  kEnd,
+  kIdentifier,
+  kNumber,
+  kString,
+  kPlus,
+  kMinus,
+  kStar,
+  kSlash,
+  kDot,
+  kCaret,
+  kAssign,
+  kPlusAssign,
+  kMinusAssign,
+  kStarAssign,
+  kSlashAssign,
+  kEqual,
+  kNotEqual,
+  kLess,
+  kLessEqual,
+  kGreater,
+  kGreaterEqual,
+  kAnd,
+  kOr,
+  kNot,
+  kQuestion,
+  kColon,
+  kLeftParen,
+  kRightParen,
+  kLeftBrace,
+  kRightBrace,
+  kLeftBracket,
+  kRightBracket,
+  kComma,
+  kSemicolon,
+  kArrow,
   kForeign ///< an operator of C that RSL lacks: ++ -- % & | ~
 };
 

@@ -12,8 +12,10 @@ TranslationUnit Parser::parse_file() {
   while (!at_end()) {
     size_t before = at_;
     if (take(TokenKind::kSemicolon)) continue;
-    if (at_shader_start()) parse_shader();
-    else if (at_function()) unit_.definitions.push_back({parse_function(), nullptr});
+    if (at_shader_start())
+      parse_shader();
+    else if (at_function())
+      unit_.definitions.push_back({parse_function(), nullptr});
     else if (!reject_rsl2_declaration()) {
       if (at(TokenKind::kRightBrace)) {
         report(diags_, Msg::kStrayBrace, current().range);
@@ -28,8 +30,10 @@ TranslationUnit Parser::parse_file() {
     if (panic_) {
       if (at_ == before) advance();
       synchronise();
-      if (at(TokenKind::kLeftBrace)) skip_balanced();
-      else if (at(TokenKind::kRightBrace)) advance();
+      if (at(TokenKind::kLeftBrace))
+        skip_balanced();
+      else if (at(TokenKind::kRightBrace))
+        advance();
     }
   }
   assign_annotations();
@@ -63,7 +67,8 @@ void Parser::parse_shader() {
 bool Parser::at_function() const {
   size_t i = at_;
   auto word = [&](size_t k) -> std::string_view {
-    return k < tokens_.size() && tokens_[k].kind == TokenKind::kIdentifier ? std::string_view(tokens_[k].text) : "";
+    return k < tokens_.size() && tokens_[k].kind == TokenKind::kIdentifier ? std::string_view(tokens_[k].text)
+                                                                           : "";
   };
   if (word(i) == "uniform" || word(i) == "varying") ++i;
   if (word(i) == "void" || type_of_word(word(i)) != Type::kVoid) ++i;
@@ -72,9 +77,12 @@ bool Parser::at_function() const {
   int depth = 0;
   for (; i < tokens_.size(); ++i) {
     TokenKind kind = tokens_[i].kind;
-    if (kind == TokenKind::kLeftParen) ++depth;
-    else if (kind == TokenKind::kRightParen && --depth == 0) break;
-    else if (kind == TokenKind::kLeftBrace || kind == TokenKind::kEnd) break;
+    if (kind == TokenKind::kLeftParen)
+      ++depth;
+    else if (kind == TokenKind::kRightParen && --depth == 0)
+      break;
+    else if (kind == TokenKind::kLeftBrace || kind == TokenKind::kEnd)
+      break;
   }
   return i + 1 < tokens_.size() && tokens_[i].kind == TokenKind::kRightParen &&
          tokens_[i + 1].kind == TokenKind::kLeftBrace;
@@ -89,8 +97,10 @@ FunctionDef* Parser::parse_function() {
   }
   function.result = type_of_word(current().text);
   function.result_given = function.result != Type::kVoid || at_word("void");
-  if (function.result_given) advance();
-  else function.result = Type::kFloat;
+  if (function.result_given)
+    advance();
+  else
+    function.result = Type::kFloat;
   function.name = current().text;
   function.where = current().range;
   advance();
@@ -104,11 +114,13 @@ std::vector<Variable*> Parser::parse_formals(VariableKind kind) {
   std::vector<Variable*> formals;
   size_t open = at_;
   expect(TokenKind::kLeftParen, "'('");
-  while (take(TokenKind::kSemicolon)) {}
+  while (take(TokenKind::kSemicolon)) {
+  }
   while (!panic_ && !at(TokenKind::kRightParen) && !at_end()) {
     parse_formal_group(kind, formals);
     bool separated = false;
-    while (take(TokenKind::kSemicolon) || take(TokenKind::kComma)) separated = true;
+    while (take(TokenKind::kSemicolon) || take(TokenKind::kComma))
+      separated = true;
     if (!separated) break;
   }
   expect(TokenKind::kRightParen, "')' or ';'");
@@ -138,8 +150,10 @@ Parser::Specifiers Parser::parse_specifiers() {
     }
   }
   s.type = at(TokenKind::kIdentifier) ? type_of_word(current().text) : Type::kVoid;
-  if (s.type != Type::kVoid) advance();
-  else if (!reject_rsl2_declaration()) fail(Msg::kExpectedType, describe_current());
+  if (s.type != Type::kVoid)
+    advance();
+  else if (!reject_rsl2_declaration())
+    fail(Msg::kExpectedType, describe_current());
   return s;
 }
 
@@ -207,14 +221,16 @@ bool Parser::reject_rsl2_declaration() {
   bool block = (word == "class" || word == "struct") && before_name;
   bool other = (word == "plugin" && next.kind == TokenKind::kString) ||
                ((word == "shader" || word == "public" || word == "private" || word == "constant" ||
-                 word == "method" || word == "bool") && before_name);
+                 word == "method" || word == "bool") &&
+                before_name);
   if (!block && !other) return false;
   report(diags_, Msg::kRsl2, current().range, word);
   if (!block) {
     panic_ = true;
     return true;
   }
-  while (!at_end() && !at(TokenKind::kLeftBrace) && !at(TokenKind::kSemicolon)) advance();
+  while (!at_end() && !at(TokenKind::kLeftBrace) && !at(TokenKind::kSemicolon))
+    advance();
   if (at(TokenKind::kLeftBrace)) skip_balanced();
   take(TokenKind::kSemicolon);
   return true;

@@ -5,7 +5,9 @@ namespace slc {
 namespace {
 
 // How far an expression's text reaches on its first line.
-slvm::SourceRange range_of(const Expr& first, slvm::SourceRange last) { return join(first.range, last); }
+slvm::SourceRange range_of(const Expr& first, slvm::SourceRange last) {
+  return join(first.range, last);
+}
 
 struct BinaryOperator {
   TokenKind token;

@@ -1,8 +1,8 @@
 // The recursive-descent parser, shared by the .cpp files of this folder.
 //
-// After an error the parser is in panic: it reports nothing more and consumes little until synchronise() has found
-// the end of the statement or declaration. Parse functions therefore never check for errors; they return a node, or
-// null for a statement that was skipped.
+// After an error the parser is in panic: it reports nothing more and consumes little until synchronise() has
+// found the end of the statement or declaration. Parse functions therefore never check for errors; they
+// return a node, or null for a statement that was skipped.
 #pragma once
 
 #include "slc/diag/messages.h"
@@ -14,8 +14,7 @@ namespace slc {
 
 class Parser {
 public:
-  Parser(TokenList tokens, slvm::Diagnostics& diags)
-      : tokens_(std::move(tokens.tokens)), diags_(diags) {
+  Parser(TokenList tokens, slvm::Diagnostics& diags) : tokens_(std::move(tokens.tokens)), diags_(diags) {
     for (PragmaAnnotation& a : tokens.annotations)
       unit_.annotations.push_back({std::move(a.id), std::move(a.text), a.where});
   }
@@ -75,12 +74,8 @@ private:
 
   // recovery.cpp
   /// Reports at the current token and panics; nothing when in panic already.
-  template <class... Args>
-  void fail(Msg id, const Args&... args) {
-    fail_at(id, current().range, args...);
-  }
-  template <class... Args>
-  void fail_at(Msg id, slvm::SourceRange where, const Args&... args) {
+  template <class... Args> void fail(Msg id, const Args&... args) { fail_at(id, current().range, args...); }
+  template <class... Args> void fail_at(Msg id, slvm::SourceRange where, const Args&... args) {
     if (!std::exchange(panic_, true)) report(diags_, id, where, args...);
   }
   /// Skips to the end of the statement that went wrong, or to where one surely starts.

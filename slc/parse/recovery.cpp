@@ -1,5 +1,5 @@
-// What the parser does after an error: skip to a place where a statement surely ends or begins, so that the next
-// error is a real one.
+// What the parser does after an error: skip to a place where a statement surely ends or begins, so that the
+// next error is a real one.
 #include "slc/parse/parser.h"
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 namespace slc {
 
 Type type_of_word(std::string_view word) {
-  for (Type t : {Type::kFloat, Type::kColor, Type::kPoint, Type::kVector, Type::kNormal, Type::kMatrix, Type::kString})
+  for (Type t :
+       {Type::kFloat, Type::kColor, Type::kPoint, Type::kVector, Type::kNormal, Type::kMatrix, Type::kString})
     if (slvm::type_name(t) == word) return t;
   return Type::kVoid;
 }
@@ -36,7 +37,8 @@ bool Parser::expect(TokenKind kind, std::string_view what) {
   if (take(kind)) return true;
   if (panic_) return false;
   // A missing ';' or ')' is best shown behind what stands before it.
-  bool behind = kind == TokenKind::kSemicolon && current().range.line != last_range().line && last_range().valid();
+  bool behind =
+      kind == TokenKind::kSemicolon && current().range.line != last_range().line && last_range().valid();
   slvm::SourceRange where = current().range;
   if (behind) {
     where = last_range();
@@ -55,7 +57,7 @@ bool Parser::at_shader_start() const {
 }
 
 bool Parser::at_statement_word() const {
-  constexpr std::string_view kWords[] = {"if",   "while",    "for",   "return", "break",   "continue",
+  constexpr std::string_view kWords[] = {"if",   "while",    "for",   "return", "break",       "continue",
                                          "else", "traverse", "solar", "gather", "illuminance", "illuminate"};
   if (!at(TokenKind::kIdentifier)) return false;
   if (std::find(std::begin(kWords), std::end(kWords), current().text) != std::end(kWords)) return true;

@@ -40,7 +40,8 @@ StmtPtr Parser::parse_statement() {
   return s;
 }
 
-// statement = ";" | block | vardecl ";" | funcdef [ ";" ] | exprlist ";" | the statements that start with a word ;
+// statement = ";" | block | vardecl ";" | funcdef [ ";" ] | exprlist ";" | the statements that start with a
+// word ;
 StmtPtr Parser::parse_statement_here() {
   if (at(TokenKind::kSemicolon)) {
     auto empty = std::make_unique<EmptyStmt>(current().range);
@@ -56,8 +57,8 @@ StmtPtr Parser::parse_statement_here() {
     s->function = parse_function();
     return s;
   }
-  bool type_then_name = type_of_word(current().text) != Type::kVoid && peek().kind == TokenKind::kIdentifier &&
-                        peek(2).kind != TokenKind::kLeftParen;
+  bool type_then_name = type_of_word(current().text) != Type::kVoid &&
+                        peek().kind == TokenKind::kIdentifier && peek(2).kind != TokenKind::kLeftParen;
   if (is_specifier_word(current().text) || type_then_name) return parse_declaration();
   if (reject_rsl2_declaration()) return nullptr;
   if (type_of_word(current().text) == Type::kVoid && peek().kind == TokenKind::kIdentifier) {
@@ -116,7 +117,8 @@ StmtPtr Parser::parse_expression_statement() {
 // exprlist = expr { "," expr } ;
 std::vector<ExprPtr> Parser::parse_expression_list() {
   std::vector<ExprPtr> list;
-  do list.push_back(parse_expression());
+  do
+    list.push_back(parse_expression());
   while (take(TokenKind::kComma));
   return list;
 }
@@ -165,8 +167,9 @@ StmtPtr Parser::parse_for() {
   advance();
   expect(TokenKind::kLeftParen, "'('");
   if (!take(TokenKind::kSemicolon) && !panic_) {
-    bool declares = at(TokenKind::kIdentifier) && (is_specifier_word(current().text) ||
-                    (type_of_word(current().text) != Type::kVoid && peek().kind == TokenKind::kIdentifier));
+    bool declares = at(TokenKind::kIdentifier) &&
+                    (is_specifier_word(current().text) ||
+                     (type_of_word(current().text) != Type::kVoid && peek().kind == TokenKind::kIdentifier));
     s->init = declares ? parse_declaration() : parse_expression_statement();
   }
   if (!panic_ && !at(TokenKind::kSemicolon)) s->condition = parse_expression();
@@ -185,8 +188,10 @@ StmtPtr Parser::parse_jump() {
   if (at(TokenKind::kNumber)) {
     s->range = join(s->range, current().range);
     float levels = current().number;
-    if (!current().is_integer || levels < 1 || levels > 1000) fail(Msg::kBadLevel, current().text);
-    else s->levels = static_cast<int>(levels);
+    if (!current().is_integer || levels < 1 || levels > 1000)
+      fail(Msg::kBadLevel, current().text);
+    else
+      s->levels = static_cast<int>(levels);
     advance();
   }
   expect(TokenKind::kSemicolon, "';'");

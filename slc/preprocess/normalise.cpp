@@ -1,14 +1,21 @@
 // Clean-up of source text, line by line.
 #include "slc/preprocess/normalise.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace slc {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 // The text with LF line ends, control characters blanked and a final LF.
 std::string plain_lines(std::string_view text) {
@@ -35,7 +42,8 @@ std::string plain_lines(std::string_view text) {
 // `\` followed by blanks only continues a line all the same: the backslash moves to the end.
 void move_backslash_to_end(char* begin, char* end) {
   char* last = end;
-  while (last != begin && is_blank(last[-1])) --last;
+  while (last != begin && is_blank(last[-1]))
+    --last;
   if (last != end && last != begin && last[-1] == '\\') {
     last[-1] = ' ';
     end[-1] = '\\';
@@ -50,38 +58,56 @@ void blank_until_comment(char* p, char* end) {
   }
 }
 
+// Whether anything but a comment or a continuation follows on the line.
+bool has_word(const char* p, const char* end) {
+  while (p != end && (is_blank(*p) || *p == '\\'))
+    ++p;
+  bool comment = p != end && *p == '/' && p + 1 != end && (p[1] == '/' || p[1] == '*');
+  return p != end && !comment;
+}
+
 enum class DirectiveFix { kNone, kInsertLine };
 
-// Mends one directive line in place. kInsertLine: it is a line marker that lacks the word "line" after the '#'.
+// Mends one directive line in place. kInsertLine: it is a line marker that lacks the word "line" after the
+// '#'.
 DirectiveFix fix_directive(char* begin, char* end) {
   char* p = begin;
-  while (p != end && is_blank(*p)) ++p;
+  while (p != end && is_blank(*p))
+    ++p;
   if (p == end || *p != '#') return DirectiveFix::kNone;
   ++p;
-  while (p != end && is_blank(*p)) ++p;
+  while (p != end && is_blank(*p))
+    ++p;
   char* word = p;
-  while (p != end && is_letter(*p)) ++p;
+  while (p != end && is_letter(*p))
+    ++p;
   std::string_view name(word, static_cast<size_t>(p - word));
   if (name == "endif" || name == "else") blank_until_comment(p, end);
+  if (name == "pragma" && !has_word(p, end)) std::fill(begin, p, ' '); // Wave crashes on it
   if (!name.empty() || p == end || !is_digit(*p)) return DirectiveFix::kNone;
   // A marker: `# number "file" flags`; the flags go.
-  while (p != end && is_digit(*p)) ++p;
-  while (p != end && *p != '"') ++p;
+  while (p != end && is_digit(*p))
+    ++p;
+  while (p != end && *p != '"')
+    ++p;
   if (p != end) ++p;
-  while (p != end && *p != '"') ++p;
+  while (p != end && *p != '"')
+    ++p;
   if (p != end) blank_until_comment(p + 1, end);
   return DirectiveFix::kInsertLine;
 }
 
 } // namespace
 
-std::string normalise_source(std::string_view source) {
+std::string normalise_source(std::string_view source, size_t* open_comment) {
   std::string text = plain_lines(source);
   std::string out;
   out.reserve(text.size());
   bool in_comment = false; // of the /* */ kind, at the start of the line
+  size_t number = 0, comment_line = 0;
   for (size_t begin = 0; begin < text.size();) {
     size_t end = text.find('\n', begin);
+    ++number;
     char* line = text.data() + begin;
     char* line_end = text.data() + end;
     if (!in_comment) {
@@ -98,20 +124,25 @@ std::string normalise_source(std::string_view source) {
       if (in_comment) {
         if (p[0] == '*' && p[1] == '/') in_comment = false, ++p;
       } else if (in_string) {
-        if (*p == '\\') ++p;
-        else if (*p == '"') in_string = false;
+        if (*p == '\\')
+          ++p;
+        else if (*p == '"')
+          in_string = false;
       } else if (*p == '"') {
         in_string = true;
       } else if (p[0] == '/' && p[1] == '/') {
         break;
       } else if (p[0] == '/' && p[1] == '*') {
         in_comment = true;
+        comment_line = number;
         ++p;
       }
     }
     out.append(text, begin, end + 1 - begin);
     begin = end + 1;
   }
+  if (in_comment) out.insert(out.size() - 1, "*/");
+  if (open_comment) *open_comment = in_comment ? comment_line : 0;
   return out;
 }
 

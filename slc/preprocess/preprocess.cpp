@@ -1,5 +1,5 @@
-// The wrapper around Boost.Wave: files come from the FileReader, errors go to Diagnostics, and each token is placed
-// where the user sees it. Read preprocess() at the end first.
+// The wrapper around Boost.Wave: files come from the FileReader, errors go to Diagnostics, and each token is
+// placed where the user sees it. Read preprocess() at the end first.
 #include "slc/preprocess/preprocess.h"
 
 #include "slc/diag/messages.h"
@@ -7,6 +7,7 @@
 #include "slc/preprocess/wave.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/ranges.h>
 #include <fstream>
 #include <iterator>
@@ -20,8 +21,9 @@ using slvm::SourceRange;
 namespace wave = boost::wave;
 
 std::optional<std::string> read_file(const std::string& path) {
+  std::error_code error;
   std::ifstream in(path, std::ios::binary);
-  if (!in) return std::nullopt;
+  if (!in || std::filesystem::is_directory(path, error)) return std::nullopt;
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (in.bad()) return std::nullopt;
   return text;
@@ -43,7 +45,9 @@ struct Place {
   FileId file = 0;
   size_t line = 0, column = 0;
 };
-bool before(const Place& a, const Place& b) { return std::pair(a.line, a.column) < std::pair(b.line, b.column); }
+bool before(const Place& a, const Place& b) {
+  return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+}
 
 // All that one run knows; the hooks and the input policy below reach it through the context.
 class State {
@@ -60,12 +64,10 @@ public:
     }
     return it->second;
   }
-  template <class Position>
-  Place place(const Position& p) {
+  template <class Position> Place place(const Position& p) {
     return {file_id(p.get_file().c_str()), p.get_line(), p.get_column()};
   }
-  template <class Token>
-  SourceRange range(const Token& token) {
+  template <class Token> SourceRange range(const Token& token) {
     return word_range(place(token.get_position()), token.get_value().size());
   }
   static SourceRange word_range(Place p, size_t length) {
@@ -79,21 +81,26 @@ public:
 
   // Finds, reads and keeps an included file. False: reported.
   bool locate(const std::string& name, bool system, SourceRange where, std::string& path);
+  std::string normalise(FileId file, std::string_view text) {
+    size_t open_comment = 0;
+    std::string clean = normalise_source(text, &open_comment);
+    if (open_comment) report(diags_, Msg::kOpenComment, word_range({file, open_comment, 0}, 0));
+    return clean;
+  }
   const std::string& normalised(const std::string& path) { return texts_[path]; }
 
   // Macro definitions and uses.
-  template <class Token, class Tokens>
-  void note_definition(const Token& name, const Tokens& body) {
+  template <class Token, class Tokens> void note_definition(const Token& name, const Tokens& body) {
     note_definition_line(place(name.get_position()));
-    for (const auto& token : body) note_definition_line(place(token.get_position()));
+    for (const auto& token : body)
+      note_definition_line(place(token.get_position()));
   }
   void note_use(Place start, Place end, size_t name_length);
 
   // Appends a token of the output.
   void emit(Place place, std::string_view text, bool is_pragma);
 
-  template <class Exception>
-  void report_exception(const Exception& e);
+  template <class Exception> void report_exception(const Exception& e);
 
 private:
   void note_definition_line(Place p) { definition_lines_.insert({p.file, p.line}); }
@@ -111,8 +118,8 @@ private:
   std::set<std::pair<FileId, size_t>> definition_lines_;
   Place use_start_, use_end_; // the outermost macro call being expanded
   size_t use_length_ = 0;
-  Place next_;                // where a character directly behind the last one would be
-  FileId column_file_ = 0;    // real_column's memory: what was found last
+  Place next_;             // where a character directly behind the last one would be
+  FileId column_file_ = 0; // real_column's memory: what was found last
   size_t column_line_ = 0, column_next_ = 1;
 };
 
@@ -133,7 +140,8 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
   std::vector<std::string> folders;
   if (!name.starts_with("/")) {
     if (!system) folders.push_back(folder_of(open_files_.back()));
-    for (const std::string& dir : options_.include_dirs) folders.push_back(dir.ends_with('/') ? dir : dir + "/");
+    for (const std::string& dir : options_.include_dirs)
+      folders.push_back(dir.ends_with('/') ? dir : dir + "/");
   } else {
     folders.push_back("");
   }
@@ -142,9 +150,11 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
     if (texts_.contains(path)) return true;
     std::optional<std::string> text = options_.read(path);
     if (!text) continue;
-    texts_[path] = normalise_source(*text);
     out_.dependencies.push_back({path, system});
-    if (!sources_.find(path)) file_ids_[path] = sources_.add(path, std::move(*text));
+    FileId id = sources_.find(path);
+    if (!id) id = sources_.add(path, *text);
+    file_ids_[path] = id;
+    texts_[path] = normalise(id, *text);
     return true;
   }
   std::vector<std::string> named; // each once
@@ -153,7 +163,8 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
   folders = std::move(named);
   for (std::string& folder : folders)
     folder = folder.empty() ? "'./'" : fmt::format("'{}'", folder);
-  report(diags_, Msg::kMissingInclude, where, name, folders.empty() ? "no folder" : fmt::format("{}", fmt::join(folders, ", ")));
+  report(diags_, Msg::kMissingInclude, where, name,
+         folders.empty() ? "no folder" : fmt::format("{}", fmt::join(folders, ", ")));
   return false;
 }
 
@@ -163,7 +174,8 @@ void State::note_use(Place start, Place end, size_t name_length) {
     throw GiveUp{};
   }
   if (in_definition(start)) return; // a macro used inside another's body
-  bool inside_arguments = start.file == use_start_.file && before(use_start_, start) && before(start, use_end_);
+  bool inside_arguments =
+      start.file == use_start_.file && before(use_start_, start) && before(start, use_end_);
   if (inside_arguments) return;
   use_start_ = start;
   use_end_ = end;
@@ -172,7 +184,8 @@ void State::note_use(Place start, Place end, size_t name_length) {
 
 // Wave goes on counting columns over a line's final backslash: find the token in its line.
 size_t State::real_column(const Place& p, std::string_view text) {
-  if (p.file != column_file_ || p.line != column_line_) column_file_ = p.file, column_line_ = p.line, column_next_ = 1;
+  if (p.file != column_file_ || p.line != column_line_)
+    column_file_ = p.file, column_line_ = p.line, column_next_ = 1;
   std::string_view line = sources_.line(p.file, static_cast<uint32_t>(p.line));
   size_t column = p.column;
   if (column == 0 || column - 1 > line.size() || line.substr(column - 1, text.size()) != text) {
@@ -196,17 +209,18 @@ void State::emit(Place p, std::string_view text, bool is_pragma) {
   bool contiguous = !from_macro && p.file == next_.file && p.line == next_.line && p.column == next_.column;
   if (!contiguous) {
     // Tokens of different origin must not grow together.
-    if (!out_.text.empty() && out_.text.back() != '\n' && out_.text.back() != ' ' && text[0] != ' ') out_.text += ' ';
+    if (!out_.text.empty() && out_.text.back() != '\n' && out_.text.back() != ' ' && text[0] != ' ')
+      out_.text += ' ';
     SourceRange at = from_macro ? word_range(use_start_, use_length_) : word_range(p, text.size());
     out_.pieces.push_back({out_.text.size(), at, !from_macro});
   }
   out_.text += text;
   size_t newline = text.rfind('\n');
-  next_ = from_macro || newline != std::string_view::npos ? Place{} : Place{p.file, p.line, p.column + text.size()};
+  next_ = from_macro || newline != std::string_view::npos ? Place{}
+                                                          : Place{p.file, p.line, p.column + text.size()};
 }
 
-template <class Exception>
-void State::report_exception(const Exception& e) {
+template <class Exception> void State::report_exception(const Exception& e) {
   Place p{file_id(e.file_name()), e.line_no(), e.column_no()};
   SourceRange where = word_range(p, 0);
   std::string_view text = e.description();
@@ -218,8 +232,7 @@ void State::report_exception(const Exception& e) {
 
 // Gives Wave the text of included files.
 struct ReaderPolicy {
-  template <class IterContext>
-  class inner {
+  template <class IterContext> class inner {
   public:
     template <class Position>
     static void init_iterators(IterContext& iter, const Position&, wave::language_support language) {
@@ -238,8 +251,8 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
   bool reported = false; // the exception that follows was reported already
 
   template <class Context>
-  bool locate_include_file(Context& ctx, std::string& file_path, bool is_system, const char*, std::string& dir_path,
-                           std::string& native_name) {
+  bool locate_include_file(Context& ctx, std::string& file_path, bool is_system, const char*,
+                           std::string& dir_path, std::string& native_name) {
     const auto& at = ctx.get_main_pos();
     SourceRange where = State::word_range(state->place(at), 0);
     std::string path;
@@ -254,19 +267,18 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
   void opened_include_file(const Context&, const std::string&, const std::string& path, bool) {
     state->enter_file(path);
   }
-  template <class Context>
-  void returning_from_include_file(const Context&) {
-    state->leave_file();
-  }
+  template <class Context> void returning_from_include_file(const Context&) { state->leave_file(); }
   template <class Context, class Token, class Parameters, class Definition>
-  void defined_macro(const Context&, const Token& name, bool, const Parameters&, const Definition& body, bool) {
+  void defined_macro(const Context&, const Token& name, bool, const Parameters&, const Definition& body,
+                     bool) {
     state->note_definition(name, body);
   }
   template <class Context, class Token, class Container, class Iterator>
-  bool expanding_function_like_macro(const Context&, const Token&, const std::vector<Token>&, const Container&,
-                                     const Token& call, const std::vector<Container>&, const Iterator&,
-                                     const Iterator& end) {
-    state->note_use(state->place(call.get_position()), state->place(end->get_position()), call.get_value().size());
+  bool expanding_function_like_macro(const Context&, const Token&, const std::vector<Token>&,
+                                     const Container&, const Token& call, const std::vector<Container>&,
+                                     const Iterator&, const Iterator& end) {
+    state->note_use(state->place(call.get_position()), state->place(end->get_position()),
+                    call.get_value().size());
     return false;
   }
   template <class Context, class Token, class Container>
@@ -275,16 +287,18 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
     state->note_use(start, start, call.get_value().size());
     return false;
   }
-  template <class Context, class Exception>
-  void throw_exception(const Context&, const Exception& e) {
+  template <class Context, class Exception> void throw_exception(const Context&, const Exception& e) {
     if (std::exchange(reported, false)) return;
-    if (e.get_severity() < wave::util::severity_error) state->report_exception(e);
-    else boost::throw_exception(e);
+    if (e.get_severity() < wave::util::severity_error)
+      state->report_exception(e);
+    else
+      boost::throw_exception(e);
   }
 };
 
 using Token = wave::cpplexer::lex_token<>;
-using Context = wave::context<std::string::iterator, wave::cpplexer::lex_iterator<Token>, ReaderPolicy, Hooks>;
+using Context =
+    wave::context<std::string::iterator, wave::cpplexer::lex_iterator<Token>, ReaderPolicy, Hooks>;
 
 void define_macros(Context& context, const PreprocessOptions& options) {
   auto name_of = [](const std::string& define) { return define.substr(0, define.find_first_of("=(")); };
@@ -325,7 +339,7 @@ PreprocessedText preprocess(FileId main, const PreprocessOptions& options, slvm:
                             slvm::Diagnostics& diags) {
   PreprocessedText out;
   State state(options, sources, diags, out);
-  std::string text = normalise_source(sources.text(main));
+  std::string text = state.normalise(main, sources.text(main));
   state.set_main(main);
   state.enter_file(std::string(sources.name(main)));
   try {

@@ -1,8 +1,9 @@
-// The preprocessor: source file in, one text without directives out, with the place every piece of it came from.
-// Read next: normalise.h (what happens to the text before), preprocess.cpp (the wrapper around Boost.Wave).
+// The preprocessor: source file in, one text without directives out, with the place every piece of it came
+// from. Read next: normalise.h (what happens to the text before), preprocess.cpp (the wrapper around
+// Boost.Wave).
 //
-// Only `#pragma` lines survive in the output; the lexer reads those. Text out of a macro's body is placed where the
-// macro is used: a diagnostic about it points at the use.
+// Only `#pragma` lines survive in the output; the lexer reads those. Text out of a macro's body is placed
+// where the macro is used: a diagnostic about it points at the use.
 #pragma once
 
 #include "slvm/support/diagnostics.h"
@@ -35,7 +36,8 @@ struct Dependency {
 struct Piece {
   size_t offset = 0;
   slvm::SourceRange at; ///< place of its first character
-  bool exact = true; ///< the following characters stand side by side in the source too; false: all belong to `at`
+  bool exact =
+      true; ///< the following characters stand side by side in the source too; false: all belong to `at`
 };
 
 struct PreprocessedText {
@@ -44,8 +46,8 @@ struct PreprocessedText {
   std::vector<Dependency> dependencies; ///< files included, in order of first inclusion
 };
 
-/// Preprocesses file `main`, which is in `sources` already; included files are added there. Errors go to `diags`;
-/// what could be preprocessed is returned all the same.
+/// Preprocesses file `main`, which is in `sources` already; included files are added there. Errors go to
+/// `diags`; what could be preprocessed is returned all the same.
 PreprocessedText preprocess(slvm::FileId main, const PreprocessOptions&, slvm::SourceManager& sources,
                             slvm::Diagnostics& diags);
 

@@ -11,12 +11,13 @@
 namespace slc {
 namespace {
 
-// Whether a function has exactly the row's name and signature; surplus formals with a constant default take the row's
-// token-value pairs.
+// Whether a function has exactly the row's name and signature; surplus formals with a constant default take
+// the row's token-value pairs.
 bool is_body_of(const FunctionDef& f, const slvm::ShadeopInfo& row) {
   const slvm::Signature& s = row.signature;
   auto count = static_cast<size_t>(s.param_count);
-  if (row.kind != slvm::ShadeopKind::kRsl || row.name != f.name || s.result != f.result || f.formals.size() < count)
+  if (row.kind != slvm::ShadeopKind::kRsl || row.name != f.name || s.result != f.result ||
+      f.formals.size() < count)
     return false;
   for (size_t i = 0; i < f.formals.size(); ++i) {
     const Variable& v = *f.formals[i];
@@ -47,7 +48,8 @@ void BuiltinLibrary::build(TokenList tokens, slvm::Diagnostics& diags) {
 }
 
 std::shared_ptr<const BuiltinLibrary> BuiltinLibrary::load(std::span<const BuiltinSource> files,
-                                                           slvm::SourceManager& sources, slvm::Diagnostics& diags) {
+                                                           slvm::SourceManager& sources,
+                                                           slvm::Diagnostics& diags) {
   TokenList all;
   for (const BuiltinSource& file : files) {
     PreprocessOptions options;
@@ -61,7 +63,8 @@ std::shared_ptr<const BuiltinLibrary> BuiltinLibrary::load(std::span<const Built
   if (all.tokens.empty()) all.tokens.emplace_back();
   auto library = std::make_shared<BuiltinLibrary>();
   TokenList nowhere = all;
-  for (Token& token : nowhere.tokens) token.range = {};
+  for (Token& token : nowhere.tokens)
+    token.range = {};
   slvm::Diagnostics unplaced;
   library->build(std::move(nowhere), unplaced);
   if (unplaced.has_errors()) { // once more, to say where

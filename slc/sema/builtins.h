@@ -1,5 +1,6 @@
-// RSL bodies of built-ins: the functions of stdlib/builtins, each the body of the row of shadeops.def with its name and
-// signature. Checked once, then only read: one library serves any number of compilations and threads.
+// RSL bodies of built-ins: the functions of stdlib/builtins, each the body of the row of shadeops.def with
+// its name and signature. Checked once, then only read: one library serves any number of compilations and
+// threads.
 #pragma once
 
 #include "slc/ast/unit.h"
@@ -19,10 +20,10 @@ std::span<const BuiltinSource> builtin_sources();
 
 class BuiltinLibrary {
 public:
-  /// Parses and checks the files. Functions that match no row are helpers. Errors carry positions in `sources`, into
-  /// which the files are added; the finished nodes carry none.
-  static std::shared_ptr<const BuiltinLibrary> load(std::span<const BuiltinSource> files, slvm::SourceManager& sources,
-                                                    slvm::Diagnostics& diags);
+  /// Parses and checks the files. Functions that match no row are helpers. Errors carry positions in
+  /// `sources`, into which the files are added; the finished nodes carry none.
+  static std::shared_ptr<const BuiltinLibrary> load(std::span<const BuiltinSource> files,
+                                                    slvm::SourceManager& sources, slvm::Diagnostics& diags);
 
   /// The body of a row, or null.
   const FunctionDef* body(ShadeopId row) const { return row < bodies_.size() ? bodies_[row] : nullptr; }

@@ -1,11 +1,14 @@
-// What single functions ask for beyond the types of their arguments: print patterns, names of spaces, knots of splines.
+// What single functions ask for beyond the types of their arguments: print patterns, names of spaces, knots
+// of splines.
 #include "slc/sema/checker.h"
 
 namespace slc {
 namespace {
 
-constexpr std::string_view kColourSpaces[] = {"rgb", "RGB", "hsv", "HSV", "hsl", "HSL", "YIQ", "yiq", "xyz", "XYZ", "xyY", "xyy"};
-constexpr std::string_view kSpaces[] = {"current", "object", "shader", "world", "camera", "screen", "raster", "NDC", "eye"};
+constexpr std::string_view kColourSpaces[] = {"rgb", "RGB", "hsv", "HSV", "hsl", "HSL",
+                                              "YIQ", "yiq", "xyz", "XYZ", "xyY", "xyy"};
+constexpr std::string_view kSpaces[] = {"current", "object", "shader", "world", "camera",
+                                        "screen",  "raster", "NDC",    "eye"};
 
 bool contains(std::span<const std::string_view> names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -27,7 +30,9 @@ std::vector<Conversion> conversions(std::string_view pattern) {
   for (size_t i = 0; i < pattern.size(); ++i) {
     if (pattern[i] != '%') continue;
     size_t end = i + 1;
-    while (end < pattern.size() && std::string_view("+-# .0123456789").find(pattern[end]) != std::string_view::npos) ++end;
+    while (end < pattern.size() &&
+           std::string_view("+-# .0123456789").find(pattern[end]) != std::string_view::npos)
+      ++end;
     char letter = end < pattern.size() ? pattern[end] : '\0';
     size_t length = std::min(end + 1, pattern.size()) - i;
     if (letter != '%') found.push_back({i, std::string(pattern.substr(i, length)), letter});
@@ -76,9 +81,11 @@ void Checker::check_call_rules(CallExpr& call) {
   if (call.function) return;
   if (takes_pattern(call.name)) return check_print_pattern(call);
   if (call.name == "ctransform")
-    for (const ExprPtr& arg : call.args) check_colour_space(*arg);
+    for (const ExprPtr& arg : call.args)
+      check_colour_space(*arg);
   if (call.name == "transform" || call.name == "vtransform" || call.name == "ntransform") {
-    for (const ExprPtr& arg : call.args) check_space(*arg);
+    for (const ExprPtr& arg : call.args)
+      check_space(*arg);
     check_transform_source(call);
   }
   if (call.name == "spline") {
@@ -96,7 +103,8 @@ void Checker::check_print_pattern(CallExpr& call) {
   std::vector<Conversion> list = conversions(pattern->value);
   size_t values = call.args.size() - 1;
   for (const Conversion& c : list)
-    if (conversion_type(c.letter) == Type::kVoid) return void(report(diags_, Msg::kBadConversion, pattern->range, c.text));
+    if (conversion_type(c.letter) == Type::kVoid)
+      return void(report(diags_, Msg::kBadConversion, pattern->range, c.text));
   if (list.size() != values) {
     report(diags_, Msg::kPatternCount, call.range, list.size(), values);
     return;
@@ -130,7 +138,8 @@ std::string Checker::space_of(const Expr& e) const {
     return it == spaces_.end() ? "" : it->second;
   }
   const auto* call = as<CallExpr>(&e);
-  if (!call || (call->name != "transform" && call->name != "vtransform" && call->name != "ntransform")) return "";
+  if (!call || (call->name != "transform" && call->name != "vtransform" && call->name != "ntransform"))
+    return "";
   bool names_both = call->args.size() == 3;
   const auto* to = as<StringExpr>(call->args[names_both ? 1 : 0].get());
   return to ? to->value : "";

@@ -74,7 +74,8 @@ TypeSet Checker::analyse_call(CallExpr& call) {
   }
   if (error) return TypeSet::error();
   TypeSet types;
-  for (const Viable& v : resolution.viable) types.add(v.candidate.result());
+  for (const Viable& v : resolution.viable)
+    types.add(v.candidate.result());
   resolutions_[&call] = std::move(resolution);
   return types;
 }
@@ -86,27 +87,33 @@ void Checker::report_unknown_function(const CallExpr& call) {
   }
   for (const FunctionDef& f : unit_.functions)
     if (f.name == call.name) {
-      report(diags_, Msg::kFunctionTooLate, call.name_range, call.name).notes.push_back({f.where, "it is defined here"});
+      report(diags_, Msg::kFunctionTooLate, call.name_range, call.name)
+          .notes.push_back({f.where, "it is defined here"});
       return;
     }
   if (const Variable* v = scopes_.find(call.name)) {
-    report(diags_, Msg::kNotAFunction, call.name_range, call.name).notes.push_back({v->where, "declared here"});
+    report(diags_, Msg::kNotAFunction, call.name_range, call.name)
+        .notes.push_back({v->where, "declared here"});
     return;
   }
   std::vector<std::string_view> names = scopes_.visible_functions();
   for (const slvm::ShadeopInfo& info : slvm::shadeops())
     if ((info.flags & slvm::kInternal) == 0) names.push_back(info.name);
   std::string_view near = slvm::nearest_name(call.name, names);
-  if (near.empty()) report(diags_, Msg::kUnknownFunction, call.name_range, call.name);
-  else report(diags_, Msg::kUnknownFunctionNear, call.name_range, call.name, near);
+  if (near.empty())
+    report(diags_, Msg::kUnknownFunction, call.name_range, call.name);
+  else
+    report(diags_, Msg::kUnknownFunctionNear, call.name_range, call.name, near);
 }
 
 void Checker::report_no_candidate(const CallExpr& call, const std::vector<Candidate>& all,
                                   const std::vector<Argument>& args) {
   bool count_fits = false;
-  for (const Candidate& c : all) count_fits |= c.takes_count(args.size());
-  slvm::Diagnostic& d = count_fits ? report(diags_, Msg::kNoCandidate, call.name_range, call.name, types_text(args))
-                                   : report(diags_, Msg::kWrongArity, call.name_range, call.name, args.size());
+  for (const Candidate& c : all)
+    count_fits |= c.takes_count(args.size());
+  slvm::Diagnostic& d = count_fits
+                            ? report(diags_, Msg::kNoCandidate, call.name_range, call.name, types_text(args))
+                            : report(diags_, Msg::kWrongArity, call.name_range, call.name, args.size());
   for (size_t i = 0; i < all.size() && i < kMaxCandidateNotes; ++i)
     d.notes.push_back({{}, fmt::format("candidate: {}", all[i].text())});
   if (all.size() > kMaxCandidateNotes)
@@ -119,7 +126,8 @@ void Checker::finish_call(ExprPtr& e, Type wanted) {
   std::vector<size_t> tied;
   size_t best = choose(r.viable, r.args, wanted, &tied);
   Candidate chosen = r.viable[best].candidate;
-  // Equally good ones: an error among functions of the source, a warning where only the result's type was open.
+  // Equally good ones: an error among functions of the source, a warning where only the result's type was
+  // open.
   bool open_result = false, open_function = false;
   for (size_t i : tied) {
     open_function |= chosen.function != nullptr;
@@ -129,7 +137,8 @@ void Checker::finish_call(ExprPtr& e, Type wanted) {
     slvm::Diagnostic& d = report(diags_, Msg::kAmbiguousCall, call.name_range, call.name);
     d.notes.push_back({chosen.function->where, fmt::format("candidate: {}", chosen.text())});
     for (size_t i : tied)
-      d.notes.push_back({r.viable[i].candidate.function->where, fmt::format("candidate: {}", r.viable[i].candidate.text())});
+      d.notes.push_back({r.viable[i].candidate.function->where,
+                         fmt::format("candidate: {}", r.viable[i].candidate.text())});
   }
   if (!chosen.function && open_result && wanted == Type::kVoid && set_of(call).has(Type::kFloat)) {
     for (size_t i : tied)
@@ -139,9 +148,11 @@ void Checker::finish_call(ExprPtr& e, Type wanted) {
   call.function = chosen.function;
   call.shadeop = chosen.row;
   call.type = chosen.result();
-  if (chosen.function && open_functions_.contains(chosen.function)) report(diags_, Msg::kRecursion, call.range, call.name);
+  if (chosen.function && open_functions_.contains(chosen.function))
+    report(diags_, Msg::kRecursion, call.range, call.name);
   size_t positional = chosen.positional(call.args.size());
-  for (size_t i = 0; i < positional; ++i) finish_argument(call, i, chosen.param(i));
+  for (size_t i = 0; i < positional; ++i)
+    finish_argument(call, i, chosen.param(i));
   finish_tokens(call, chosen);
   check_call_rules(call);
   use_library_body(call);
@@ -176,7 +187,8 @@ void Checker::finish_output(ExprPtr& arg, const Param& p, std::string_view calle
 void Checker::finish_tokens(CallExpr& call, const Candidate& chosen) {
   size_t positional = chosen.positional(call.args.size());
   for (size_t i = positional; i + 1 < call.args.size(); i += 2)
-    finish_token(std::move(call.args[i]), std::move(call.args[i + 1]), chosen.token_set(), call.name, call.tokens);
+    finish_token(std::move(call.args[i]), std::move(call.args[i + 1]), chosen.token_set(), call.name,
+                 call.tokens);
   call.args.resize(positional);
 }
 
@@ -192,8 +204,10 @@ void Checker::finish_token(ExprPtr token, ExprPtr value, std::string_view set, s
       for (const slvm::TokenInfo& t : slvm::tokens())
         if (t.set == set) names.push_back(t.name);
       std::string_view near = slvm::nearest_name(constant->value, names);
-      if (near.empty()) report(diags_, Msg::kUnknownToken, token->range, callee, constant->value);
-      else report(diags_, Msg::kUnknownTokenNear, token->range, callee, constant->value, near);
+      if (near.empty())
+        report(diags_, Msg::kUnknownToken, token->range, callee, constant->value);
+      else
+        report(diags_, Msg::kUnknownTokenNear, token->range, callee, constant->value, near);
     }
   }
   if (pair.info && pair.info->output) {

@@ -1,10 +1,11 @@
-// Semantic analysis of one translation unit: names, types, overloads, conversions. Shared by the .cpp files of this
-// folder; the interface is sema.h.
+// Semantic analysis of one translation unit: names, types, overloads, conversions. Shared by the .cpp files
+// of this folder; the interface is sema.h.
 //
-// Expressions are checked in two phases. analyse() walks up from the leaves, resolves names and returns the set of
-// types an expression can have. finish() walks down with the type the context wants, picks one, annotates the nodes
-// and inserts conversions. What depends on the shader a function is inlined into (uniform and varying, access to
-// predefined variables, where light loops may stand) is checked afterwards, in contexts.cpp.
+// Expressions are checked in two phases. analyse() walks up from the leaves, resolves names and returns the
+// set of types an expression can have. finish() walks down with the type the context wants, picks one,
+// annotates the nodes and inserts conversions. What depends on the shader a function is inlined into (uniform
+// and varying, access to predefined variables, where light loops may stand) is checked afterwards, in
+// contexts.cpp.
 #pragma once
 
 #include "slc/diag/messages.h"
@@ -33,7 +34,16 @@ public:
 private:
   /// What a value is for: shapes the message when it does not fit, and which lint applies.
   struct Purpose {
-    enum Kind : uint8_t { kInitialiser, kAssignment, kArgument, kOperand, kReturn, kIndex, kElement, kCast } kind;
+    enum Kind : uint8_t {
+      kInitialiser,
+      kAssignment,
+      kArgument,
+      kOperand,
+      kReturn,
+      kIndex,
+      kElement,
+      kCast
+    } kind;
     std::string_view name; ///< of the variable or function
   };
 
@@ -65,8 +75,8 @@ private:
   void check_loop_body(StmtPtr&);
   void check_axis_and_angle(std::vector<ExprPtr>& args, size_t first, ExprPtr& axis, ExprPtr& angle);
   /// Checks the token-value pairs behind the positional arguments and moves them to `tokens`.
-  void split_tokens(std::vector<ExprPtr>& args, size_t positional, std::string_view set, std::string_view statement,
-                    std::vector<TokenArg>& tokens);
+  void split_tokens(std::vector<ExprPtr>& args, size_t positional, std::string_view set,
+                    std::string_view statement, std::vector<TokenArg>& tokens);
   void check_condition(ExprPtr&);
 
   // expressions.cpp

@@ -1,9 +1,10 @@
-// Which values vary, per shader, by a fixpoint: a variable once found varying stays so; the walk is repeated until
-// nothing changes, and once more to report. Read ContextWalk::run first.
+// Which values vary, per shader, by a fixpoint: a variable once found varying stays so; the walk is repeated
+// until nothing changes, and once more to report. Read ContextWalk::run first.
 //
-// Control that some lanes have left counts as varying. There are two degrees: under a varying condition or in gather
-// (hard), and in light loops or after a varying break or return (soft). A variable set there varies from then on, as
-// it does in the IR; for a declared uniform that is worth a warning where the control is hard.
+// Control that some lanes have left counts as varying. There are two degrees: under a varying condition or in
+// gather (hard), and in light loops or after a varying break or return (soft). A variable set there varies
+// from then on, as it does in the IR; for a declared uniform that is worth a warning where the control is
+// hard.
 #include "slc/sema/contexts.h"
 
 #include "slc/diag/messages.h"
@@ -35,7 +36,9 @@ struct Instance {
 // What was reported where: one function may be expanded in many places.
 using Reported = std::set<std::tuple<slvm::FileId, uint32_t, uint32_t, Msg>>;
 
-bool declared_uniform(const Variable& v) { return v.detail_given && v.detail == Detail::kUniform; }
+bool declared_uniform(const Variable& v) {
+  return v.detail_given && v.detail == Detail::kUniform;
+}
 bool always_uniform(const Variable& v) {
   return declared_uniform(v) || (v.kind == VariableKind::kParameter && !v.detail_given);
 }
@@ -43,7 +46,8 @@ bool always_uniform(const Variable& v) {
 bool is_random(const Expr* e) {
   if (const auto* conversion = as<ConvertExpr>(e)) e = conversion->operand.get();
   const auto* call = as<CallExpr>(e);
-  return call && !call->function && call->shadeop != kNoShadeop && slvm::shadeop(call->shadeop).name == "random";
+  return call && !call->function && call->shadeop != kNoShadeop &&
+         slvm::shadeop(call->shadeop).name == "random";
 }
 
 class ContextWalk {
@@ -103,9 +107,9 @@ private:
   Instance& here() { return *frame_.instance; }
   void check_global(const Variable& v, bool store, SourceRange where);
   void check_row_place(const CallExpr& e, uint32_t flags);
-  template <class... Args>
-  void complain(Msg id, SourceRange where, const Args&... args) {
-    if (reporting_ && reported_.insert({where.file, where.line, where.column, id}).second) report(diags_, id, where, args...);
+  template <class... Args> void complain(Msg id, SourceRange where, const Args&... args) {
+    if (reporting_ && reported_.insert({where.file, where.line, where.column, id}).second)
+      report(diags_, id, where, args...);
   }
 
   Shader& shader_;
@@ -113,7 +117,7 @@ private:
   Reported& reported_;
   Instance root_;
   Frame frame_;
-  std::map<const Variable*, VarState*> bound_; // variables of the expansions around this point
+  std::map<const Variable*, VarState*> bound_;  // variables of the expansions around this point
   std::set<const FunctionDef*> open_functions_; // being expanded
   size_t expansions_ = 0;
   int hard_ = 0, soft_ = 0;
@@ -128,7 +132,8 @@ void ContextWalk::walk_shader() {
   hard_ = soft_ = illuminance_ = emission_ = 0;
   for (Variable* v : shader_.params) {
     VarState& s = state(*v);
-    if (v->detail_given && v->detail == Detail::kVarying) s.varying = true; // never back: the walk is repeated until it settles
+    if (v->detail_given && v->detail == Detail::kVarying)
+      s.varying = true; // never back: the walk is repeated until it settles
     if (value(v->init.get()) && !s.varying && !draws_once(v->init.get(), *v))
       complain(Msg::kVaryingToUniform, v->init->range, v->name);
   }
@@ -154,11 +159,13 @@ void ContextWalk::statement(Stmt* s) {
   case StmtKind::kEmpty:
   case StmtKind::kFunction: break;
   case StmtKind::kBlock:
-    for (StmtPtr& child : as<BlockStmt>(s)->statements) statement(child.get());
+    for (StmtPtr& child : as<BlockStmt>(s)->statements)
+      statement(child.get());
     break;
   case StmtKind::kDeclaration:
     if (!as<DeclarationStmt>(s)->is_extern)
-      for (Variable* v : as<DeclarationStmt>(s)->variables) declare(*v);
+      for (Variable* v : as<DeclarationStmt>(s)->variables)
+        declare(*v);
     break;
   case StmtKind::kExpression: values(as<ExpressionStmt>(s)->expressions); break;
   case StmtKind::kIf: {
@@ -220,8 +227,7 @@ void ContextWalk::leave(ReturnStmt& s) {
   bool varying = !(uniform_function && is_random(s.value.get())) && value(s.value.get());
   bool some_lanes = control() > frame_.control; // only
   if (varying || some_lanes) mark(here().result_varying);
-  if (uniform_function && varying)
-    complain(Msg::kVaryingResult, s.value->range, frame_.function->name);
+  if (uniform_function && varying) complain(Msg::kVaryingResult, s.value->range, frame_.function->name);
   if (!some_lanes) return;
   mark(here().soft_rest);
   for (const Loop& left : frame_.loops)
@@ -246,7 +252,8 @@ void ContextWalk::illuminance(IlluminanceStmt& s) {
 
 void ContextWalk::emission(EmissionStmt& s) {
   std::string_view name = s.is_solar ? "solar" : "illuminate";
-  if (shader_.kind != ShaderKind::kLight) complain(Msg::kEmissionPlace, s.range, name, slvm::shader_kind_name(shader_.kind));
+  if (shader_.kind != ShaderKind::kLight)
+    complain(Msg::kEmissionPlace, s.range, name, slvm::shader_kind_name(shader_.kind));
   if (emission_ > 0) complain(Msg::kNestedLightLoop, s.range, name, "illuminate or solar");
   value(s.position.get());
   value(s.axis.get());
@@ -261,7 +268,8 @@ void ContextWalk::emission(EmissionStmt& s) {
 void ContextWalk::gather(GatherStmt& s) {
   std::string_view name = s.is_traverse ? "traverse" : "gather";
   if (value(s.category.get())) complain(Msg::kNeedsUniform, s.category->range, "category", name);
-  for (ExprPtr* e : {&s.position, &s.direction, &s.angle, &s.samples}) value(e->get());
+  for (ExprPtr* e : {&s.position, &s.direction, &s.angle, &s.samples})
+    value(e->get());
   ++hard_;
   tokens(s.tokens, true);
   loop_body(s, s.body.get());
@@ -271,7 +279,8 @@ void ContextWalk::gather(GatherStmt& s) {
 
 bool ContextWalk::values(std::vector<ExprPtr>& list) {
   bool varying = false;
-  for (ExprPtr& e : list) varying |= value(e.get());
+  for (ExprPtr& e : list)
+    varying |= value(e.get());
   return varying;
 }
 
@@ -336,8 +345,10 @@ void ContextWalk::check_global(const Variable& v, bool store, SourceRange where)
   bool of_lights = v.global == Global::kL || v.global == Global::kCl || v.global == Global::kOl;
   if (access == '-') {
     std::string_view advice;
-    if (light && (v.global == Global::kCi || v.global == Global::kOi)) advice = "; lights set Cl and Ol";
-    else if (of_lights && shader_.kind != ShaderKind::kSurface) advice = "; it belongs to lights and to light loops of surfaces";
+    if (light && (v.global == Global::kCi || v.global == Global::kOi))
+      advice = "; lights set Cl and Ol";
+    else if (of_lights && shader_.kind != ShaderKind::kSurface)
+      advice = "; it belongs to lights and to light loops of surfaces";
     complain(Msg::kGlobalNotHere, where, v.name, kind, advice);
   } else if (store && access == 'r') {
     complain(Msg::kGlobalReadOnly, where, v.name, kind);
@@ -357,8 +368,10 @@ void ContextWalk::store_variable(VarState& s, bool varying, SourceRange where, s
   }
   if (hard_ > s.hard) complain(Msg::kUniformUnderVarying, where, name);
   // Set at some points only, it varies in fact; what follows from that is no error.
-  if (some_points && v.type != Type::kString) mark(s.varying);
-  else if (varying && !s.varying) complain(Msg::kVaryingToUniform, where, name);
+  if (some_points && v.type != Type::kString)
+    mark(s.varying);
+  else if (varying && !s.varying)
+    complain(Msg::kVaryingToUniform, where, name);
 }
 
 void ContextWalk::store(Expr& place, bool varying, SourceRange where) {
@@ -379,7 +392,9 @@ void ContextWalk::store(Expr& place, bool varying, SourceRange where) {
 }
 
 // random() straight into a declared uniform is drawn once for the grid.
-bool ContextWalk::draws_once(const Expr* e, const Variable& target) { return always_uniform(target) && is_random(e); }
+bool ContextWalk::draws_once(const Expr* e, const Variable& target) {
+  return always_uniform(target) && is_random(e);
+}
 
 bool ContextWalk::assign(AssignExpr& e) {
   const Variable* v = nullptr;
@@ -411,11 +426,13 @@ bool ContextWalk::row_call(CallExpr& e) {
   bool varying = (info.flags & slvm::kHiddenVarying) != 0;
   auto param = [&](size_t i) -> const slvm::SignatureParam& { return signature.param(static_cast<int>(i)); };
   // Surplus formals of an RSL body take token-value pairs.
-  size_t count = signature.variadic() ? e.args.size() : std::min<size_t>(e.args.size(), signature.param_count);
+  size_t count =
+      signature.variadic() ? e.args.size() : std::min<size_t>(e.args.size(), signature.param_count);
   for (size_t i = 0; i < e.args.size(); ++i) {
     if (i < count && param(i).output && !param(i).input) continue;
     bool arg = value(e.args[i].get());
-    if (arg && i < count && param(i).uniform) complain(Msg::kNeedsUniform, e.args[i]->range, param(i).name, e.name);
+    if (arg && i < count && param(i).uniform)
+      complain(Msg::kNeedsUniform, e.args[i]->range, param(i).name, e.name);
     bool message = i < count && param(i).output && param(i).any;
     varying |= arg && !message;
   }
@@ -428,13 +445,16 @@ bool ContextWalk::row_call(CallExpr& e) {
     store(*e.args[i], !uniform_target && (varying || param(i).any), e.args[i]->range);
   }
   tokens(e.tokens, varying);
-  for (TokenArg& t : e.tokens) varying |= t.value && t.value->detail == Detail::kVarying && !(t.info && t.info->output);
+  for (TokenArg& t : e.tokens)
+    varying |= t.value && t.value->detail == Detail::kVarying && !(t.info && t.info->output);
   return varying && !signature.uniform_result && signature.result != Type::kVoid;
 }
 
 void ContextWalk::check_row_place(const CallExpr& e, uint32_t flags) {
-  if ((flags & slvm::kSurfaceOnly) && shader_.kind == ShaderKind::kLight) complain(Msg::kCallNotInLights, e.range, e.name);
-  if ((flags & slvm::kInIlluminance) && illuminance_ == 0) complain(Msg::kOutsideIlluminance, e.range, e.name);
+  if ((flags & slvm::kSurfaceOnly) && shader_.kind == ShaderKind::kLight)
+    complain(Msg::kCallNotInLights, e.range, e.name);
+  if ((flags & slvm::kInIlluminance) && illuminance_ == 0)
+    complain(Msg::kOutsideIlluminance, e.range, e.name);
 }
 
 void ContextWalk::tokens(std::vector<TokenArg>& list, bool varying_output) {
@@ -475,18 +495,22 @@ bool ContextWalk::inlined(CallExpr& e) {
       binding = &state(*actual);
       if (actual->kind == VariableKind::kGlobal) binding->varying = actual->detail == Detail::kVarying;
       if (element && varying) store_variable(*binding, true, arg.range, actual->name);
-      if (formal.detail_given && formal.detail == Detail::kVarying) store_variable(*binding, true, arg.range, actual->name);
+      if (formal.detail_given && formal.detail == Detail::kVarying)
+        store_variable(*binding, true, arg.range, actual->name);
     } else {
       binding->declared = &formal;
       bool given_varying = formal.detail_given && formal.detail == Detail::kVarying;
-      if (varying && declared_uniform(formal)) complain(Msg::kNeedsUniform, arg.range, formal.name, f.name);
-      else if (varying || given_varying) mark(binding->varying);
+      if (varying && declared_uniform(formal))
+        complain(Msg::kNeedsUniform, arg.range, formal.name, f.name);
+      else if (varying || given_varying)
+        mark(binding->varying);
     }
     bindings.push_back({&formal, binding});
   }
   Frame outer = std::exchange(frame_, Frame{slot.get(), &f, control(), {}});
   auto outer_bound = bound_;
-  for (auto& [formal, binding] : bindings) bound_[formal] = binding;
+  for (auto& [formal, binding] : bindings)
+    bound_[formal] = binding;
   open_functions_.insert(&f);
   statement(f.body.get());
   open_functions_.erase(&f);
@@ -499,7 +523,8 @@ bool ContextWalk::inlined(CallExpr& e) {
 
 void check_contexts(TranslationUnit& unit, slvm::Diagnostics& diags) {
   Reported reported;
-  for (Shader& shader : unit.shaders) ContextWalk(shader, diags, reported).run();
+  for (Shader& shader : unit.shaders)
+    ContextWalk(shader, diags, reported).run();
 }
 
 } // namespace slc

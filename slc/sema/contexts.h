@@ -1,6 +1,6 @@
-// The second half of semantic analysis: what depends on where code is inlined. Walks every shader with its function
-// calls expanded and works out which values vary; reports varying values where uniform ones are needed, access to
-// predefined variables a shader does not have, and light loops in the wrong place.
+// The second half of semantic analysis: what depends on where code is inlined. Walks every shader with its
+// function calls expanded and works out which values vary; reports varying values where uniform ones are
+// needed, access to predefined variables a shader does not have, and light loops in the wrong place.
 #pragma once
 
 #include "slc/ast/unit.h"

@@ -27,8 +27,10 @@ std::string Checker::types_text(const std::vector<Argument>& args) {
   for (const Argument& a : args) {
     if (!text.empty()) text += ", ";
     text += slvm::type_name(a.types.preferred());
-    if (a.array_length == kOpenArray) text += "[]";
-    else if (a.array_length > 0) text += fmt::format("[{}]", a.array_length);
+    if (a.array_length == kOpenArray)
+      text += "[]";
+    else if (a.array_length > 0)
+      text += fmt::format("[{}]", a.array_length);
   }
   return text;
 }
@@ -50,26 +52,36 @@ void Checker::convert(ExprPtr& e, Type to, Purpose purpose) {
   if (purpose.kind == Purpose::kCast) retype = slvm::is_triple(from) && slvm::is_triple(to);
   if (!retype && conversion_cost(from, to) >= kImpossible) {
     std::string_view advice;
-    bool mixed = (from == Type::kColor && slvm::is_geometric(to)) || (to == Type::kColor && slvm::is_geometric(from));
-    if (from == Type::kVoid) advice = ": the function returns nothing";
-    else if (mixed) advice = "; write a cast if the components are meant";
-    else if (slvm::is_triple(from) && to == Type::kFloat) advice = "; take a component, or length()";
+    bool mixed =
+        (from == Type::kColor && slvm::is_geometric(to)) || (to == Type::kColor && slvm::is_geometric(from));
+    if (from == Type::kVoid)
+      advice = ": the function returns nothing";
+    else if (mixed)
+      advice = "; write a cast if the components are meant";
+    else if (slvm::is_triple(from) && to == Type::kFloat)
+      advice = "; take a component, or length()";
     switch (purpose.kind) {
     case Purpose::kInitialiser:
     case Purpose::kAssignment:
-      report(diags_, Msg::kCannotAssign, e->range, slvm::type_name(from), slvm::type_name(to), purpose.name, advice);
+      report(diags_, Msg::kCannotAssign, e->range, slvm::type_name(from), slvm::type_name(to), purpose.name,
+             advice);
       break;
     case Purpose::kReturn:
-      report(diags_, Msg::kCannotReturn, e->range, slvm::type_name(from), slvm::type_name(to), purpose.name, advice);
+      report(diags_, Msg::kCannotReturn, e->range, slvm::type_name(from), slvm::type_name(to), purpose.name,
+             advice);
       break;
-    default: report(diags_, Msg::kCannotConvert, e->range, slvm::type_name(from), slvm::type_name(to), advice);
+    default:
+      report(diags_, Msg::kCannotConvert, e->range, slvm::type_name(from), slvm::type_name(to), advice);
     }
     e->type = to;
     return;
   }
-  if (retype) lint_conversion(*e, to, purpose);
-  else if (from == Type::kBool) report(diags_, Msg::kRelationAsNumber, e->range);
-  else if (to == Type::kBool) report(diags_, Msg::kFloatCondition, e->range);
+  if (retype)
+    lint_conversion(*e, to, purpose);
+  else if (from == Type::kBool)
+    report(diags_, Msg::kRelationAsNumber, e->range);
+  else if (to == Type::kBool)
+    report(diags_, Msg::kFloatCondition, e->range);
   auto conversion = std::make_unique<ConvertExpr>(e->range);
   conversion->shadeop = retype ? kNoShadeop : row("convert", to, from);
   conversion->operand = std::move(e);
@@ -77,13 +89,14 @@ void Checker::convert(ExprPtr& e, Type to, Purpose purpose) {
   e = std::move(conversion);
 }
 
-// Points are places, vectors and normals are directions: mixing them in declarations and arguments is often a slip.
-// Results of operators and functions are not held to that.
+// Points are places, vectors and normals are directions: mixing them in declarations and arguments is often a
+// slip. Results of operators and functions are not held to that.
 void Checker::lint_conversion(const Expr& e, Type to, Purpose purpose) {
   bool place = e.kind == ExprKind::kVariable || e.kind == ExprKind::kIndex;
   bool point = (e.type == Type::kPoint) != (to == Type::kPoint);
   if (!place || !point || in_library_) return;
-  if (purpose.kind == Purpose::kInitialiser || purpose.kind == Purpose::kAssignment || purpose.kind == Purpose::kArgument)
+  if (purpose.kind == Purpose::kInitialiser || purpose.kind == Purpose::kAssignment ||
+      purpose.kind == Purpose::kArgument)
     report(diags_, Msg::kPointLint, e.range, slvm::type_name(e.type), slvm::type_name(to));
 }
 

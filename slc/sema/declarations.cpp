@@ -10,8 +10,10 @@ constexpr float kMaxArrayLength = 1'000'000;
 
 std::string variable_type(const Variable& v) {
   std::string text(slvm::type_name(v.type));
-  if (v.array_length == kOpenArray) text += "[]";
-  else if (v.array_length > 0) text += fmt::format("[{}]", v.array_length);
+  if (v.array_length == kOpenArray)
+    text += "[]";
+  else if (v.array_length > 0)
+    text += fmt::format("[{}]", v.array_length);
   return text;
 }
 
@@ -58,7 +60,8 @@ Variable* Checker::global_variable(Global g) {
 void Checker::report_duplicate(const FunctionDef& f) {
   for (const FunctionDef* other : scopes_.functions(f.name))
     if (other != &f && same_formals(*other, f) && other->result == f.result)
-      report(diags_, Msg::kDuplicateFunction, f.where, f.name).notes.push_back({other->where, "the other one"});
+      report(diags_, Msg::kDuplicateFunction, f.where, f.name)
+          .notes.push_back({other->where, "the other one"});
 }
 
 void Checker::check_function(FunctionDef& f) {
@@ -84,9 +87,11 @@ void Checker::check_function(FunctionDef& f) {
 
 void Checker::check_function_body(FunctionDef& f) {
   scopes_.enter(true);
-  for (Variable* v : f.formals) declare_formal(*v);
+  for (Variable* v : f.formals)
+    declare_formal(*v);
   if (f.body)
-    for (StmtPtr& s : f.body->statements) check_statement(*s);
+    for (StmtPtr& s : f.body->statements)
+      check_statement(*s);
   scopes_.leave();
 }
 
@@ -102,10 +107,12 @@ void Checker::check_result(FunctionDef& f) {
 void Checker::check_shader(Shader& shader) {
   scopes_.enter();
   spaces_.clear();
-  for (Variable* v : shader.params) declare_parameter(*v, shader);
+  for (Variable* v : shader.params)
+    declare_parameter(*v, shader);
   scopes_.enter();
   if (shader.body)
-    for (StmtPtr& s : shader.body->statements) check_statement(*s);
+    for (StmtPtr& s : shader.body->statements)
+      check_statement(*s);
   scopes_.leave();
   scopes_.leave();
 }
@@ -176,9 +183,11 @@ void Checker::declare_extern(Variable*& slot) {
     usage_.passed(wanted);
     return;
   }
-  if (found->type != wanted.type || (found->array_length == kNotArray) != (wanted.array_length == kNotArray)) {
+  if (found->type != wanted.type ||
+      (found->array_length == kNotArray) != (wanted.array_length == kNotArray)) {
     bool close = slvm::is_geometric(found->type) && slvm::is_geometric(wanted.type);
-    report(diags_, close ? Msg::kExternTypeLint : Msg::kExternType, wanted.where, wanted.name, variable_type(*found));
+    report(diags_, close ? Msg::kExternTypeLint : Msg::kExternType, wanted.where, wanted.name,
+           variable_type(*found));
   }
   slot = found;
   if (wanted.name != "PI") scopes_.declare(wanted.name, found);

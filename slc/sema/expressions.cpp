@@ -22,13 +22,13 @@ TypeSet Checker::analyse_here(Expr& e) {
   case ExprKind::kIndex: return analyse_index(*as<IndexExpr>(&e));
   case ExprKind::kTuple: {
     auto& tuple = *as<TupleExpr>(&e);
-    for (ExprPtr& element : tuple.elements) analyse(*element);
-    if (tuple.elements.size() != 3 && tuple.elements.size() != 16) return TypeSet::error(); // reported by the parser
+    for (ExprPtr& element : tuple.elements)
+      analyse(*element);
+    if (tuple.elements.size() != 3 && tuple.elements.size() != 16)
+      return TypeSet::error(); // reported by the parser
     return tuple.elements.size() == 16 ? TypeSet(Type::kMatrix) : TypeSet::triples();
   }
-  case ExprKind::kArrayInit:
-    report(diags_, Msg::kMisplacedArrayInit, e.range);
-    return TypeSet::error();
+  case ExprKind::kArrayInit: report(diags_, Msg::kMisplacedArrayInit, e.range); return TypeSet::error();
   case ExprKind::kOperator: return analyse_operator(*as<OperatorExpr>(&e));
   case ExprKind::kLogical:
     analyse(*as<LogicalExpr>(&e)->left);
@@ -52,8 +52,10 @@ void Checker::report_unknown_variable(std::string_view name, SourceRange where) 
   for (int g = 0; g < slvm::kGlobalCount && !scopes_.in_function(); ++g)
     names.push_back(slvm::global_info(static_cast<Global>(g)).name);
   std::string_view near = slvm::nearest_name(name, names);
-  if (near.empty()) report(diags_, Msg::kUnknownVariable, where, name);
-  else report(diags_, Msg::kUnknownVariableNear, where, name, near);
+  if (near.empty())
+    report(diags_, Msg::kUnknownVariable, where, name);
+  else
+    report(diags_, Msg::kUnknownVariableNear, where, name, near);
 }
 
 // The variable a name means here; null after an error.
@@ -109,8 +111,8 @@ TypeSet Checker::analyse_operator(OperatorExpr& e) {
   if (error) return TypeSet::error();
   std::vector<Argument>& args = resolution.args;
   if (args.size() == 2) {
-    // The other operand chooses where nothing else does: a color makes an overloaded call a color, a point, vector or
-    // normal is scaled by a float, and a promoted float takes the type of what it is combined with.
+    // The other operand chooses where nothing else does: a color makes an overloaded call a color, a point,
+    // vector or normal is scaled by a float, and a promoted float takes the type of what it is combined with.
     bool scales = e.op == Operator::kMul || e.op == Operator::kDiv;
     for (size_t i = 0; i < 2; ++i) {
       TypeSet own = args[i].types, other = args[1 - i].types;
@@ -122,7 +124,8 @@ TypeSet Checker::analyse_operator(OperatorExpr& e) {
   }
   // Floats are promoted for sums and products, but the dot and cross product of a float mean nothing.
   bool product = e.op == Operator::kDot || e.op == Operator::kCross;
-  bool has_float = std::any_of(args.begin(), args.end(), [](const Argument& a) { return a.types.only(Type::kFloat); });
+  bool has_float =
+      std::any_of(args.begin(), args.end(), [](const Argument& a) { return a.types.only(Type::kFloat); });
   std::vector<Candidate> rows;
   for (ShadeopId id : slvm::shadeop_overloads(fmt::format("operator{}", operator_text(e.op))))
     if (!product || !has_float) rows.push_back({nullptr, id});
@@ -132,7 +135,8 @@ TypeSet Checker::analyse_operator(OperatorExpr& e) {
     return TypeSet::error();
   }
   TypeSet types;
-  for (const Viable& v : resolution.viable) types.add(v.candidate.result());
+  for (const Viable& v : resolution.viable)
+    types.add(v.candidate.result());
   resolutions_[&e] = std::move(resolution);
   return types;
 }
@@ -140,16 +144,22 @@ TypeSet Checker::analyse_operator(OperatorExpr& e) {
 void Checker::report_bad_operands(const OperatorExpr& e, const std::vector<Argument>& args) {
   auto any = [&](auto&& test) { return std::any_of(args.begin(), args.end(), test); };
   bool color = any([](const Argument& a) { return a.types.only(Type::kColor); });
-  bool geometric = any([](const Argument& a) { return a.types.single() && slvm::is_geometric(a.types.preferred()); });
+  bool geometric =
+      any([](const Argument& a) { return a.types.single() && slvm::is_geometric(a.types.preferred()); });
   bool string = any([](const Argument& a) { return a.types.only(Type::kString); });
   bool array = any([](const Argument& a) { return a.array_length != kNotArray; });
   bool floats = !any([](const Argument& a) { return !a.types.has(Type::kFloat); });
   std::string_view advice;
-  if (array) advice = "; arrays are used element by element";
-  else if (color && geometric) advice = "; cast one of them: colors and points do not mix";
-  else if (string) advice = "; strings can only be compared with == and !=, and joined with concat()";
-  else if (e.op == Operator::kCross && floats) advice = "; '^' is the cross product of vectors: for a power write pow(x, y)";
-  else if (e.op == Operator::kDot && floats) advice = "; '.' is the dot product of vectors or colors";
+  if (array)
+    advice = "; arrays are used element by element";
+  else if (color && geometric)
+    advice = "; cast one of them: colors and points do not mix";
+  else if (string)
+    advice = "; strings can only be compared with == and !=, and joined with concat()";
+  else if (e.op == Operator::kCross && floats)
+    advice = "; '^' is the cross product of vectors: for a power write pow(x, y)";
+  else if (e.op == Operator::kDot && floats)
+    advice = "; '.' is the dot product of vectors or colors";
   report(diags_, Msg::kBadOperands, e.range, operator_text(e.op), types_text(args), advice);
 }
 
@@ -163,14 +173,16 @@ TypeSet Checker::analyse_conditional(ConditionalExpr& e) {
   condition.types = Type::kBool;
   resolution.args = {condition, argument(*e.then_value), argument(*e.else_value)};
   std::vector<Candidate> rows;
-  for (ShadeopId id : slvm::shadeop_overloads("operator?:")) rows.push_back({nullptr, id});
+  for (ShadeopId id : slvm::shadeop_overloads("operator?:"))
+    rows.push_back({nullptr, id});
   resolution.viable = viable(rows, resolution.args);
   if (resolution.viable.empty()) {
     report(diags_, Msg::kBadBranches, e.range, types_text({resolution.args[1], resolution.args[2]}));
     return TypeSet::error();
   }
   TypeSet types;
-  for (const Viable& v : resolution.viable) types.add(v.candidate.result());
+  for (const Viable& v : resolution.viable)
+    types.add(v.candidate.result());
   resolutions_[&e] = std::move(resolution);
   return types;
 }
@@ -178,7 +190,8 @@ TypeSet Checker::analyse_conditional(ConditionalExpr& e) {
 // False: reported.
 bool Checker::check_writable(const Variable& v, SourceRange where) {
   if (v.output || v.kind == VariableKind::kLocal || v.kind == VariableKind::kGlobal) return true;
-  report(diags_, v.kind == VariableKind::kParameter ? Msg::kReadOnlyParameter : Msg::kReadOnlyFormal, where, v.name);
+  report(diags_, v.kind == VariableKind::kParameter ? Msg::kReadOnlyParameter : Msg::kReadOnlyFormal, where,
+         v.name);
   return false;
 }
 
@@ -269,7 +282,8 @@ void Checker::finish(ExprPtr& e, Type wanted) {
 void Checker::finish_tuple(TupleExpr& e, Type wanted) {
   bool matrix = e.elements.size() == 16;
   e.type = matrix ? Type::kMatrix : slvm::is_triple(wanted) ? wanted : Type::kPoint;
-  for (ExprPtr& element : e.elements) finish_as(element, Type::kFloat, {Purpose::kElement, ""});
+  for (ExprPtr& element : e.elements)
+    finish_as(element, Type::kFloat, {Purpose::kElement, ""});
   e.shadeop = row(matrix ? "sixteen" : "triple", e.type, Type::kFloat);
 }
 
@@ -280,8 +294,9 @@ void Checker::finish_operator(OperatorExpr& e, Type wanted) {
   e.type = chosen.result();
   for (size_t i = 0; i < e.operands.size(); ++i)
     finish_as(e.operands[i], chosen.param(i).type, {Purpose::kOperand, operator_text(e.op)});
-  if (e.op == Operator::kAdd && chosen.param(0).type == Type::kPoint && chosen.param(1).type == Type::kPoint &&
-      e.operands[0]->kind != ExprKind::kConvert && e.operands[1]->kind != ExprKind::kConvert)
+  if (e.op == Operator::kAdd && chosen.param(0).type == Type::kPoint &&
+      chosen.param(1).type == Type::kPoint && e.operands[0]->kind != ExprKind::kConvert &&
+      e.operands[1]->kind != ExprKind::kConvert)
     report(diags_, Msg::kPointSum, e.range);
 }
 
@@ -307,7 +322,8 @@ void Checker::finish_assign(AssignExpr& e) {
 void Checker::finish_array_init(ArrayInitExpr& e, const Variable& v) {
   e.type = v.type;
   e.array_length = v.array_length;
-  if (v.array_length == kNotArray) report(diags_, Msg::kArrayInitForValue, e.range, v.name);
+  if (v.array_length == kNotArray)
+    report(diags_, Msg::kArrayInitForValue, e.range, v.name);
   else if (e.elements.size() > static_cast<size_t>(v.array_length))
     report(diags_, Msg::kTooManyElements, e.range, e.elements.size(), v.name, v.array_length);
   for (ExprPtr& element : e.elements) {
@@ -320,10 +336,12 @@ void Checker::finish_array_init(ArrayInitExpr& e, const Variable& v) {
 void Checker::finish_cast(ExprPtr& e) {
   auto& cast = *as<CastExpr>(e.get());
   Type target = cast.target;
-  if (cast.operand->array_length != kNotArray) return report(diags_, Msg::kCastArray, cast.range), void(e->type = target);
+  if (cast.operand->array_length != kNotArray)
+    return report(diags_, Msg::kCastArray, cast.range), void(e->type = target);
   finish(cast.operand, target);
   Type from = cast.operand->type;
-  bool possible = conversion_cost(from, target) < kImpossible || (slvm::is_triple(from) && slvm::is_triple(target));
+  bool possible =
+      conversion_cost(from, target) < kImpossible || (slvm::is_triple(from) && slvm::is_triple(target));
   if (!possible || from == Type::kVoid) {
     report(diags_, Msg::kBadCast, cast.range, slvm::type_name(from), slvm::type_name(target));
     e->type = target;
@@ -352,8 +370,10 @@ ExprPtr Checker::space_cast(CastExpr& cast) {
   call->name_range = cast.range;
   call->args.push_back(string(cast.space));
   bool color = cast.target == Type::kColor;
-  if (color) check_colour_space(*call->args[0]);
-  else check_space(*call->args[0]);
+  if (color)
+    check_colour_space(*call->args[0]);
+  else
+    check_space(*call->args[0]);
   call->args.push_back(string(color ? "rgb" : "current"));
   if (cast.target == Type::kMatrix) {
     call->name = "spacematrix";
@@ -367,15 +387,16 @@ ExprPtr Checker::space_cast(CastExpr& cast) {
     product->operands.push_back(std::move(cast.operand));
     return product;
   }
-  call->name = color                            ? "ctransform"
-               : cast.target == Type::kPoint    ? "transform"
-               : cast.target == Type::kVector   ? "vtransform"
-                                                : "ntransform";
+  call->name = color                          ? "ctransform"
+               : cast.target == Type::kPoint  ? "transform"
+               : cast.target == Type::kVector ? "vtransform"
+                                              : "ntransform";
   call->args.push_back(std::move(cast.operand));
   call->type = cast.target;
   for (ShadeopId id : slvm::shadeop_overloads(call->name)) {
     const slvm::Signature& s = slvm::shadeop(id).signature;
-    if (s.param_count == 3 && s.params[1].type == Type::kString && s.params[2].type == cast.target) call->shadeop = id;
+    if (s.param_count == 3 && s.params[1].type == Type::kString && s.params[2].type == cast.target)
+      call->shadeop = id;
   }
   use_library_body(*call);
   return call;

@@ -8,16 +8,22 @@
 namespace slc {
 namespace {
 
-const slvm::Signature& signature(ShadeopId row) { return slvm::shadeop(row).signature; }
-bool folds(ShadeopId row) { return (slvm::shadeop(row).flags & slvm::kFoldLeft) != 0; }
+const slvm::Signature& signature(ShadeopId row) {
+  return slvm::shadeop(row).signature;
+}
+bool folds(ShadeopId row) {
+  return (slvm::shadeop(row).flags & slvm::kFoldLeft) != 0;
+}
 
 std::string param_text(const Param& p) {
   std::string text;
   if (p.output) text += p.input ? "inout " : "output ";
   if (p.uniform) text += "uniform ";
   text += p.any ? "any" : std::string(slvm::type_name(p.type));
-  if (p.array_length == kOpenArray) text += "[]";
-  else if (p.array_length > 0) text += fmt::format("[{}]", p.array_length);
+  if (p.array_length == kOpenArray)
+    text += "[]";
+  else if (p.array_length > 0)
+    text += fmt::format("[{}]", p.array_length);
   if (!p.name.empty()) text += fmt::format(" {}", p.name);
   return text;
 }
@@ -35,9 +41,13 @@ int argument_cost(const Param& p, const Argument& a) {
 
 } // namespace
 
-Type Candidate::result() const { return function ? function->result : signature(row).result; }
+Type Candidate::result() const {
+  return function ? function->result : signature(row).result;
+}
 
-std::string_view Candidate::token_set() const { return function ? std::string_view() : signature(row).token_set; }
+std::string_view Candidate::token_set() const {
+  return function ? std::string_view() : signature(row).token_set;
+}
 
 bool Candidate::takes_count(size_t args) const {
   if (function) return args == function->formals.size();
@@ -94,8 +104,10 @@ int call_cost(const Candidate& c, const std::vector<Argument>& args) {
   if (!c.takes_count(args.size())) return kImpossible;
   size_t positional = c.positional(args.size());
   int cost = 0;
-  for (size_t i = 0; i < positional; ++i) cost += argument_cost(c.param(i), args[i]);
-  for (size_t i = positional; i < args.size(); i += 2) cost += argument_cost({.type = Type::kString}, args[i]);
+  for (size_t i = 0; i < positional; ++i)
+    cost += argument_cost(c.param(i), args[i]);
+  for (size_t i = positional; i < args.size(); i += 2)
+    cost += argument_cost({.type = Type::kString}, args[i]);
   return cost;
 }
 

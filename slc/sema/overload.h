@@ -1,6 +1,6 @@
-// Overload resolution: which function or row of the table a call or operator means. Two phases, so that the return
-// type can decide too: viable() finds the candidates whose arguments convert most cheaply, choose() picks among them
-// by the type the context wants.
+// Overload resolution: which function or row of the table a call or operator means. Two phases, so that the
+// return type can decide too: viable() finds the candidates whose arguments convert most cheaply, choose()
+// picks among them by the type the context wants.
 #pragma once
 
 #include "slc/ast/unit.h"
@@ -27,7 +27,7 @@ struct Candidate {
   ShadeopId row = kNoShadeop;
 
   Type result() const;
-  bool takes_count(size_t args) const; ///< token-value pairs included
+  bool takes_count(size_t args) const;  ///< token-value pairs included
   size_t positional(size_t args) const; ///< how many of them are not token-value pairs
   Param param(size_t i) const;
   std::string_view token_set() const;
@@ -53,8 +53,9 @@ struct Viable {
 int call_cost(const Candidate&, const std::vector<Argument>& args);
 /// The candidates of least cost, in order; empty when none can be called.
 std::vector<Viable> viable(const std::vector<Candidate>&, const std::vector<Argument>& args);
-/// The index of the best of them where a `wanted` (kVoid: any) is needed; at equal rank the first. `tied`: indices of
-/// others that are exactly as good.
-size_t choose(const std::vector<Viable>&, const std::vector<Argument>& args, Type wanted, std::vector<size_t>* tied = nullptr);
+/// The index of the best of them where a `wanted` (kVoid: any) is needed; at equal rank the first. `tied`:
+/// indices of others that are exactly as good.
+size_t choose(const std::vector<Viable>&, const std::vector<Argument>& args, Type wanted,
+              std::vector<size_t>* tied = nullptr);
 
 } // namespace slc

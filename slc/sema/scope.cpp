@@ -21,7 +21,8 @@ Variable* Scopes::find(std::string_view name) const {
 
 Variable* Scopes::find_outside(std::string_view name) const {
   size_t i = scopes_.size();
-  while (i-- > 0 && !scopes_[i].function_boundary) {}
+  while (i-- > 0 && !scopes_[i].function_boundary) {
+  }
   for (; i != static_cast<size_t>(-1) && i-- > 0;) {
     auto it = scopes_[i].variables.find(name);
     if (it != scopes_[i].variables.end()) return it->second;
@@ -47,7 +48,8 @@ bool Scopes::in_function() const {
 std::vector<std::string_view> Scopes::visible_variables() const {
   std::vector<std::string_view> names;
   for (size_t i = scopes_.size(); i-- > 0;) {
-    for (const auto& [name, variable] : scopes_[i].variables) names.push_back(name);
+    for (const auto& [name, variable] : scopes_[i].variables)
+      names.push_back(name);
     if (scopes_[i].function_boundary) break;
   }
   return names;
@@ -56,7 +58,8 @@ std::vector<std::string_view> Scopes::visible_variables() const {
 std::vector<std::string_view> Scopes::visible_functions() const {
   std::vector<std::string_view> names;
   for (const Scope& scope : scopes_)
-    for (const auto& [name, functions] : scope.functions) names.push_back(name);
+    for (const auto& [name, functions] : scope.functions)
+      names.push_back(name);
   return names;
 }
 

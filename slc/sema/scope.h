@@ -8,7 +8,8 @@
 
 namespace slc {
 
-/// Blocks of the source, innermost last. A function's scope hides the variables (not the functions) around it.
+/// Blocks of the source, innermost last. A function's scope hides the variables (not the functions) around
+/// it.
 class Scopes {
 public:
   void enter(bool function_boundary = false) { scopes_.push_back({{}, {}, function_boundary}); }

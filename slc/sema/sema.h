@@ -1,4 +1,5 @@
-// Semantic analysis. Read next: checker.h (types, names, overloads), contexts.h (uniform and varying, shader kinds).
+// Semantic analysis. Read next: checker.h (types, names, overloads), contexts.h (uniform and varying, shader
+// kinds).
 #pragma once
 
 #include "slc/sema/builtins.h"

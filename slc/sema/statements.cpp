@@ -10,8 +10,10 @@ void Checker::check_statement(Stmt& s) {
   case StmtKind::kDeclaration: {
     auto& declaration = *as<DeclarationStmt>(&s);
     for (Variable*& v : declaration.variables) {
-      if (declaration.is_extern) declare_extern(v);
-      else declare_local(*v);
+      if (declaration.is_extern)
+        declare_extern(v);
+      else
+        declare_local(*v);
     }
     return;
   }
@@ -43,7 +45,8 @@ void Checker::check_statement(Stmt& s) {
 
 void Checker::check_block(BlockStmt& block) {
   scopes_.enter();
-  for (StmtPtr& s : block.statements) check_statement(*s);
+  for (StmtPtr& s : block.statements)
+    check_statement(*s);
   scopes_.leave();
 }
 
@@ -71,7 +74,8 @@ void Checker::check_loop(LoopStmt& loop) {
   check_loop_body(loop.body);
   for (ExprPtr& step : loop.steps) {
     analyse(*step);
-    if (step->kind != ExprKind::kAssign && step->kind != ExprKind::kCall) report(diags_, Msg::kNoEffect, step->range);
+    if (step->kind != ExprKind::kAssign && step->kind != ExprKind::kCall)
+      report(diags_, Msg::kNoEffect, step->range);
     finish(step, set_of(*step).preferred());
   }
   scopes_.leave();
@@ -79,8 +83,10 @@ void Checker::check_loop(LoopStmt& loop) {
 
 void Checker::check_jump(JumpStmt& jump) {
   std::string_view word = jump.is_break ? "break" : "continue";
-  if (loops_ == 0) report(diags_, Msg::kJumpOutsideLoop, jump.range, word);
-  else if (jump.levels > loops_) report(diags_, Msg::kJumpTooFar, jump.range, word, jump.levels, loops_);
+  if (loops_ == 0)
+    report(diags_, Msg::kJumpOutsideLoop, jump.range, word);
+  else if (jump.levels > loops_)
+    report(diags_, Msg::kJumpTooFar, jump.range, word, jump.levels, loops_);
 }
 
 void Checker::check_return(ReturnStmt& s) {
@@ -105,7 +111,8 @@ void Checker::check_return(ReturnStmt& s) {
 
 // [category,] position [, axis, angle] [, tokens]
 void Checker::check_illuminance(IlluminanceStmt& s) {
-  for (ExprPtr& e : s.args) analyse(*e);
+  for (ExprPtr& e : s.args)
+    analyse(*e);
   size_t first = !s.args.empty() && set_of(*s.args[0]).only(Type::kString) ? 1 : 0;
   size_t positional = first + 1;
   if (positional < s.args.size() && !set_of(*s.args[positional]).only(Type::kString)) positional += 2;
@@ -136,11 +143,14 @@ void Checker::check_axis_and_angle(std::vector<ExprPtr>& args, size_t first, Exp
 
 // illuminate(position [, axis, angle]), solar([axis, angle])
 void Checker::check_emission(EmissionStmt& s) {
-  for (ExprPtr& e : s.args) analyse(*e);
+  for (ExprPtr& e : s.args)
+    analyse(*e);
   size_t first = s.is_solar ? 0 : 1;
   if (s.args.size() != first && s.args.size() != first + 2) {
-    if (s.is_solar) report(diags_, Msg::kSolarArguments, s.range);
-    else report(diags_, Msg::kIlluminateArguments, s.range);
+    if (s.is_solar)
+      report(diags_, Msg::kSolarArguments, s.range);
+    else
+      report(diags_, Msg::kIlluminateArguments, s.range);
   } else {
     if (!s.is_solar) {
       finish_as(s.args[0], Type::kPoint, {Purpose::kArgument, "illuminate"});
@@ -154,10 +164,12 @@ void Checker::check_emission(EmissionStmt& s) {
   --light_loops_;
 }
 
-// gather(category, position, direction, angle, samples [, tokens]), traverse(category, position, direction [, tokens])
+// gather(category, position, direction, angle, samples [, tokens]), traverse(category, position, direction [,
+// tokens])
 void Checker::check_gather(GatherStmt& s) {
   std::string_view name = s.is_traverse ? "traverse" : "gather";
-  for (ExprPtr& e : s.args) analyse(*e);
+  for (ExprPtr& e : s.args)
+    analyse(*e);
   size_t positional = s.is_traverse ? 3 : 5;
   if (s.args.size() < positional) {
     report(diags_, s.is_traverse ? Msg::kTraverseArguments : Msg::kGatherArguments, s.range);
@@ -181,7 +193,7 @@ void Checker::check_gather(GatherStmt& s) {
 }
 
 void Checker::split_tokens(std::vector<ExprPtr>& args, size_t positional, std::string_view set,
-                             std::string_view statement, std::vector<TokenArg>& tokens) {
+                           std::string_view statement, std::vector<TokenArg>& tokens) {
   for (size_t i = positional; i < args.size(); i += 2) {
     if (!set_of(*args[i]).only(Type::kString) && !set_of(*args[i]).is_error()) {
       report(diags_, Msg::kTokenExpected, args[i]->range, statement);

@@ -1,5 +1,5 @@
-// Sets of types, and what converts to what at which cost. An expression whose type depends on its context (a call of
-// an overloaded function, a bare triple) has a set of possible types until the context picks one.
+// Sets of types, and what converts to what at which cost. An expression whose type depends on its context (a
+// call of an overloaded function, a bare triple) has a set of possible types until the context picks one.
 #pragma once
 
 #include "slvm/format/types.h"
@@ -23,7 +23,8 @@ public:
   }
   static constexpr TypeSet triples() {
     TypeSet s(Type::kColor);
-    for (Type t : {Type::kPoint, Type::kVector, Type::kNormal}) s.add(t);
+    for (Type t : {Type::kPoint, Type::kVector, Type::kNormal})
+      s.add(t);
     return s;
   }
 
@@ -51,8 +52,8 @@ private:
 /// Cost of an impossible conversion; sums of it stay in range.
 inline constexpr int kImpossible = 10000;
 
-/// Cost of the implicit conversion: 0 none, 1 among point, vector and normal, 2 float to a triple or matrix, 3 between
-/// bool and float.
+/// Cost of the implicit conversion: 0 none, 1 among point, vector and normal, 2 float to a triple or matrix,
+/// 3 between bool and float.
 constexpr int conversion_cost(Type from, Type to) {
   if (from == to) return 0;
   if (slvm::is_geometric(from) && slvm::is_geometric(to)) return 1;

@@ -1,4 +1,5 @@
-// Which variables are set and read where, in the order of the text: for the warnings about unused and unset ones.
+// Which variables are set and read where, in the order of the text: for the warnings about unused and unset
+// ones.
 #pragma once
 
 #include "slc/ast/unit.h"

@@ -40,16 +40,21 @@ std::string with_line_markers(const PreprocessedText& text, const slvm::SourceMa
   size_t piece = 0;
   for (size_t begin = 0; begin < text.text.size();) {
     size_t end = std::min(text.text.find('\n', begin), text.text.size());
-    while (piece + 1 < text.pieces.size() && text.pieces[piece + 1].offset <= begin) ++piece;
+    while (piece + 1 < text.pieces.size() && text.pieces[piece + 1].offset <= begin)
+      ++piece;
     std::string_view content = std::string_view(text.text).substr(begin, end - begin);
     bool blank = content.find_first_not_of(" \t") == std::string_view::npos;
     // A piece that starts inside the line says where the line is, too.
     size_t p = piece;
-    if (!text.pieces.empty() && text.pieces[p].offset < begin && p + 1 < text.pieces.size() && text.pieces[p + 1].offset < end) ++p;
+    if (!text.pieces.empty() && text.pieces[p].offset < begin && p + 1 < text.pieces.size() &&
+        text.pieces[p + 1].offset < end)
+      ++p;
     if (!blank && !text.pieces.empty()) {
       const slvm::SourceRange& at = text.pieces[p].at;
-      if (at.file == file && at.line > line && at.line - line < 8) out.append(at.line - line, '\n');
-      else if (at.file != file || at.line != line) out += fmt::format("#line {} \"{}\"\n", at.line, sources.name(at.file));
+      if (at.file == file && at.line > line && at.line - line < 8)
+        out.append(at.line - line, '\n');
+      else if (at.file != file || at.line != line)
+        out += fmt::format("#line {} \"{}\"\n", at.line, sources.name(at.file));
       file = at.file;
       line = at.line;
     }

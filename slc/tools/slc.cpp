@@ -61,7 +61,8 @@ int Run::run() {
   }
   if (files.size() > 1 && !failed.empty()) {
     fmt::print(stderr, "slc: {} of {} files failed:\n", failed.size(), files.size());
-    for (const std::string& file : failed) fmt::print(stderr, "    {}\n", file);
+    for (const std::string& file : failed)
+      fmt::print(stderr, "    {}\n", file);
   }
   return worst_;
 }
@@ -76,8 +77,8 @@ std::vector<std::string> Run::input_files() {
       continue;
     }
     size_t first = files.size();
-    for (auto it = fs::recursive_directory_iterator(input, error); !error && it != fs::recursive_directory_iterator();
-         it.increment(error))
+    for (auto it = fs::recursive_directory_iterator(input, error);
+         !error && it != fs::recursive_directory_iterator(); it.increment(error))
       if (it->path().extension() == ".sl" && it->is_regular_file(error)) files.push_back(it->path().string());
     std::sort(files.begin() + static_cast<std::ptrdiff_t>(first), files.end());
   }
@@ -88,8 +89,10 @@ int Run::compile_file(const std::string& path) {
   bool standard_input = path == "-";
   std::string name = standard_input ? options_.stdin_name : path;
   std::optional<std::string> text;
-  if (standard_input) text = std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>());
-  else text = slc::read_file(path);
+  if (standard_input)
+    text = std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>());
+  else
+    text = slc::read_file(path);
   if (!text) {
     fmt::print(stderr, "slc: cannot read '{}'\n", path);
     return kMissingFile;
@@ -123,7 +126,8 @@ int Run::generate(const slc::CheckedSource& checked, slvm::FileId file, std::vec
   compile.evaluator = evaluator_.get();
   std::vector<slc::CompiledShader> shaders = compiler_.generate(checked, file, compile, sources_);
   if (shaders.size() > 1 && !options_.output.empty() && options_.dump.empty()) {
-    fmt::print(stderr, "slc: -o names one file, but '{}' defines {} shaders; use -d\n", sources_.name(file), shaders.size());
+    fmt::print(stderr, "slc: -o names one file, but '{}' defines {} shaders; use -d\n", sources_.name(file),
+               shaders.size());
     return kBadUsage;
   }
   for (const slc::CompiledShader& shader : shaders) {
@@ -133,10 +137,13 @@ int Run::generate(const slc::CheckedSource& checked, slvm::FileId file, std::vec
     fs::path path = options_.output.empty() ? fs::path(options_.output_dir) / (shader.program.name + ".slo")
                                             : fs::path(options_.output);
     std::vector<std::byte> bytes = slvm::write_slo(shader.program);
-    if (int code = emit(path.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}); code != kFine) return code;
+    if (int code = emit(path.string(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        code != kFine)
+      return code;
     written.push_back(path.string());
     if (!options_.quiet && path != "-")
-      fmt::print("{} \"{}\" -> {}\n", slvm::shader_kind_name(shader.program.kind), shader.program.name, path.string());
+      fmt::print("{} \"{}\" -> {}\n", slvm::shader_kind_name(shader.program.kind), shader.program.name,
+                 path.string());
   }
   return kFine;
 }
@@ -146,9 +153,11 @@ int Run::write_dependencies(const std::string& source, const slc::PreprocessedTe
   std::string stem = (fs::path(options_.output_dir) / fs::path(source).stem()).string();
   std::vector<std::string> names = targets;
   if (!options_.dependency_target.empty()) names = {options_.dependency_target};
-  if (names.empty()) names = {options_.output.empty() || options_.dependencies_only ? stem + ".slo" : options_.output};
+  if (names.empty())
+    names = {options_.output.empty() || options_.dependencies_only ? stem + ".slo" : options_.output};
   std::string path = options_.dependency_file;
-  if (path.empty()) path = options_.dependencies_only ? "-" : fs::path(names.front()).replace_extension(".d").string();
+  if (path.empty())
+    path = options_.dependencies_only ? "-" : fs::path(names.front()).replace_extension(".d").string();
   return emit(path, slc::dependency_rule(names, source, text.dependencies, options_.system_dependencies));
 }
 

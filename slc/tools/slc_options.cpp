@@ -1,5 +1,5 @@
-// Arguments of slc by CLI11, which knows one-letter options and long ones with two dashes: the compiler's traditional
-// longer ones with a single dash are respelled first.
+// Arguments of slc by CLI11, which knows one-letter options and long ones with two dashes: the compiler's
+// traditional longer ones with a single dash are respelled first.
 #include "slc/tools/slc_options.h"
 
 #include "slc/diag/messages.h"
@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view kVersion = "slc (Anemone) 0.1.0";
 
 // Options of several letters behind one dash, and what they are called here.
-constexpr std::string_view kSingleDash[] = {"-MM",      "-MD",        "-MMD",       "-MF",     "-MT",     "-nw",
-                                            "-lint",    "-nolint",    "-lintpoint", "-lintspace", "-strict",
-                                            "-help",    "-version"};
+constexpr std::string_view kSingleDash[] = {"-MM",     "-MD",   "-MMD",    "-MF",        "-MT",
+                                            "-nw",     "-lint", "-nolint", "-lintpoint", "-lintspace",
+                                            "-strict", "-help", "-version"};
 
 struct Dialect {
   std::string_view name;
@@ -29,8 +29,11 @@ struct Dialect {
 };
 const std::vector<Dialect>& dialects() {
   static const std::vector<Dialect> kDialects = {
-      {"prman", {"PRMAN=1", "PRMan=1"}}, {"3delight", {"DELIGHT=1", "__3DELIGHT__=1"}}, {"aqsis", {"AQSIS=1"}},
-      {"pixie", {"PIXIE=1"}},            {"bmrt", {"BMRT=1"}},
+      {"prman", {"PRMAN=1", "PRMan=1"}},
+      {"3delight", {"DELIGHT=1", "__3DELIGHT__=1"}},
+      {"aqsis", {"AQSIS=1"}},
+      {"pixie", {"PIXIE=1"}},
+      {"bmrt", {"BMRT=1"}},
   };
   return kDialects;
 }
@@ -39,11 +42,13 @@ std::vector<std::string> respelled(int argc, char** argv) {
   std::vector<std::string> args;
   if (const char* preset = std::getenv("SLC_OPTIONS")) {
     std::istringstream words(preset);
-    for (std::string word; words >> word;) args.push_back(word);
+    for (std::string word; words >> word;)
+      args.push_back(word);
   }
   args.insert(args.end(), argv + 1, argv + argc);
   for (std::string& arg : args)
-    if (std::find(std::begin(kSingleDash), std::end(kSingleDash), arg) != std::end(kSingleDash)) arg.insert(0, "-");
+    if (std::find(std::begin(kSingleDash), std::end(kSingleDash), arg) != std::end(kSingleDash))
+      arg.insert(0, "-");
   return args;
 }
 
@@ -77,8 +82,10 @@ bool switch_warning(std::string_view name, slvm::Diagnostics& diags) {
   }
   std::vector<std::string_view> members = warnings_named(name);
   for (std::string_view member : members) {
-    if (on) diags.disabled.erase(std::string(member));
-    else diags.disabled.insert(std::string(member));
+    if (on)
+      diags.disabled.erase(std::string(member));
+    else
+      diags.disabled.insert(std::string(member));
   }
   return !members.empty();
 }
@@ -95,14 +102,16 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
   auto list = [&](const char* name, std::vector<std::string>& target, const char* help) {
     app.add_option(name, target, help)->allow_extra_args(false)->take_all();
   };
-  app.add_option("files", o.inputs, "Shader sources; folders stand for all .sl files in them; - is standard input");
+  app.add_option("files", o.inputs,
+                 "Shader sources; folders stand for all .sl files in them; - is standard input");
   app.add_option("-o", o.output, "Write the one shader to this file; - is standard output");
   app.add_option("-d", o.output_dir, "Write shaders into this folder, named after themselves");
   app.add_option("-s", o.stdin_name, "Name of standard input in messages");
   list("-I", o.compile.preprocess.include_dirs, "Add a folder to search for included files");
   list("-D", o.compile.preprocess.defines, "Define a macro: NAME or NAME=VALUE");
   list("-U", o.compile.preprocess.undefines, "Undefine a macro; wins over -D");
-  app.add_option("--dialect", f.dialect, "Define the macros of another compiler: prman, 3delight, aqsis, pixie, bmrt");
+  app.add_option("--dialect", f.dialect,
+                 "Define the macros of another compiler: prman, 3delight, aqsis, pixie, bmrt");
   app.add_flag("-E", o.preprocess_only, "Preprocess only, to standard output or -o");
   app.add_flag("-M", f.m, "Print a make rule with all included files instead of compiling");
   app.add_flag("--MM", f.mm, "-MM: the same without files included by <>");
@@ -110,12 +119,14 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
   app.add_flag("--MMD", f.mmd, "-MMD: the same without files included by <>");
   app.add_option("--MF", o.dependency_file, "-MF FILE: write the rule to FILE");
   app.add_option("--MT", o.dependency_target, "-MT NAME: the target of the rule");
-  app.add_option("-O", o.compile.optimise, "Optimise: 0 not at all, 1 cheaply, 2 fully (default)")->check(CLI::Range(0, 2));
+  app.add_option("-O", o.compile.optimise, "Optimise: 0 not at all, 1 cheaply, 2 fully (default)")
+      ->check(CLI::Range(0, 2));
   app.add_option("--dump", o.dump, "Print a stage instead of writing files: ast, ir or bytecode")
       ->check(CLI::IsMember({"ast", "ir", "bytecode"}));
   list("-W", f.warnings, "-Wname, -Wno-name: switch a warning on or off; -Wall, -Werror");
   app.add_flag("--nw", o.diagnostics.no_warnings, "-nw: no warnings");
-  app.add_flag("--lint", f.lint, "-lint: also warn of mixed points and vectors, mixed spaces, unused parameters");
+  app.add_flag("--lint", f.lint,
+               "-lint: also warn of mixed points and vectors, mixed spaces, unused parameters");
   app.add_flag("--nolint", f.nolint, "-nolint: none of these");
   app.add_flag("--lintpoint", f.lintpoint, "-lintpoint: only of mixed points and vectors");
   app.add_flag("--lintspace", f.lintspace, "-lintspace: only of mixed spaces");
@@ -123,9 +134,11 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
   app.add_flag("-q", o.quiet, "Do not print the names of the files written");
   app.add_flag("-v", o.verbose, "Print what is being compiled");
   app.add_flag("--version", f.version, "Print the version");
-  app.footer("Environment: SLC_OPTIONS holds options that come before those of the command line, SLC_INCLUDE folders to\n"
-             "search after those of -I.\n"
-             "Exit status: 0 fine, 1 the input is wrong, 2 wrong usage, 3 a file is missing, 4 internal error.");
+  app.footer(
+      "Environment: SLC_OPTIONS holds options that come before those of the command line, SLC_INCLUDE "
+      "folders to\n"
+      "search after those of -I.\n"
+      "Exit status: 0 fine, 1 the input is wrong, 2 wrong usage, 3 a file is missing, 4 internal error.");
 }
 
 std::optional<int> usage_error(std::string_view text) {
@@ -140,21 +153,28 @@ std::optional<int> apply(ToolOptions& o, const Flags& f) {
     return 0;
   }
   if (o.inputs.empty()) return usage_error("no input files");
-  if (o.inputs.size() > 1 && !o.output.empty()) return usage_error("-o names one file, but there are several inputs; use -d");
-  for (std::string_view name : warnings_off_by_default()) o.diagnostics.disabled.insert(std::string(name));
-  for (auto [set, name] : {std::pair(f.lint, "lint"), {f.nolint, "no-lint"}, {f.lintpoint, "lint-point"},
-                           {f.lintspace, "lint-space"}, {f.strict, "strict"}})
+  if (o.inputs.size() > 1 && !o.output.empty())
+    return usage_error("-o names one file, but there are several inputs; use -d");
+  for (std::string_view name : warnings_off_by_default())
+    o.diagnostics.disabled.insert(std::string(name));
+  for (auto [set, name] : {std::pair(f.lint, "lint"),
+                           {f.nolint, "no-lint"},
+                           {f.lintpoint, "lint-point"},
+                           {f.lintspace, "lint-space"},
+                           {f.strict, "strict"}})
     if (set) switch_warning(name, o.diagnostics);
   for (const std::string& name : f.warnings)
     if (!switch_warning(name, o.diagnostics)) return usage_error("there is no warning '-W" + name + "'");
   if (!f.dialect.empty()) {
-    auto found = std::find_if(dialects().begin(), dialects().end(), [&](const Dialect& d) { return d.name == f.dialect; });
+    auto found = std::find_if(dialects().begin(), dialects().end(),
+                              [&](const Dialect& d) { return d.name == f.dialect; });
     if (found == dialects().end()) return usage_error("there is no dialect '" + f.dialect + "'");
     auto& defines = o.compile.preprocess.defines;
     defines.insert(defines.end(), found->macros.begin(), found->macros.end());
   }
   if (const char* folders = std::getenv("SLC_INCLUDE"))
-    for (std::string& folder : split_path(folders)) o.compile.preprocess.include_dirs.push_back(std::move(folder));
+    for (std::string& folder : split_path(folders))
+      o.compile.preprocess.include_dirs.push_back(std::move(folder));
   o.compile.standard_include = standard_include();
   o.dependencies_only = f.m || f.mm;
   o.dependencies = f.md || f.mmd;

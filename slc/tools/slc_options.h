@@ -13,18 +13,18 @@ struct ToolOptions {
   std::string output_dir;          ///< -d
   std::string stdin_name = "<stdin>";
   CompileOptions compile;
-  slvm::Diagnostics diagnostics; ///< without messages: which warnings are on
-  bool preprocess_only = false;  ///< -E
-  bool dependencies_only = false; ///< -M, -MM
-  bool dependencies = false;      ///< -MD, -MMD
-  bool system_dependencies = true; ///< not -MM, -MMD
+  slvm::Diagnostics diagnostics;                  ///< without messages: which warnings are on
+  bool preprocess_only = false;                   ///< -E
+  bool dependencies_only = false;                 ///< -M, -MM
+  bool dependencies = false;                      ///< -MD, -MMD
+  bool system_dependencies = true;                ///< not -MM, -MMD
   std::string dependency_file, dependency_target; ///< -MF, -MT
-  std::string dump; ///< ast, ir, bytecode or ""
+  std::string dump;                               ///< ast, ir, bytecode or ""
   bool quiet = false, verbose = false;
 };
 
-/// Reads the command line and the environment (SLC_OPTIONS, SLC_INCLUDE). Returns an exit code when there is nothing
-/// to compile: after --help, --version, and errors of usage.
+/// Reads the command line and the environment (SLC_OPTIONS, SLC_INCLUDE). Returns an exit code when there is
+/// nothing to compile: after --help, --version, and errors of usage.
 std::optional<int> parse_arguments(int argc, char** argv, ToolOptions&);
 
 } // namespace slc

@@ -1,7 +1,8 @@
 // Compiles every .sl file of this folder and compares its messages with the comments in it:
 //   float x = 1.5f; // expect-warning: suffix
-// says that on this line, and nowhere else, a warning is given whose text contains "suffix". Several may follow each
-// other on a line. All warnings are on. A second test checks that each message of messages.def occurs somewhere.
+// says that on this line, and nowhere else, a warning is given whose text contains "suffix". Several may
+// follow each other on a line. All warnings are on. A second test checks that each message of messages.def
+// occurs somewhere.
 #include "slc/compiler.h"
 #include "slc/diag/messages.h"
 
@@ -58,7 +59,8 @@ void read_expectations(const std::string& file, std::string_view text, std::vect
     size_t end = std::min(text.find('\n', begin), text.size());
     std::string content(text.substr(begin, end - begin));
     for (std::sregex_iterator it(content.begin(), content.end(), kPattern), last; it != last; ++it)
-      out.push_back({file, line, (*it)[1] == "error" ? Severity::kError : Severity::kWarning, (*it)[2].str()});
+      out.push_back(
+          {file, line, (*it)[1] == "error" ? Severity::kError : Severity::kWarning, (*it)[2].str()});
     begin = end + 1;
   }
 }
@@ -73,14 +75,16 @@ TEST_P(DiagnosticsTest, says_what_is_expected) {
     read_expectations(std::string(out.sources.name(id)), out.sources.text(id), expected);
   for (const Diagnostic& d : out.diags.sorted()) {
     auto fits = [&](const Expectation& e) {
-      return !e.met && e.line == d.where.line && e.file == out.sources.name(d.where.file) && e.severity == d.severity &&
-             d.text.find(e.text) != std::string::npos;
+      return !e.met && e.line == d.where.line && e.file == out.sources.name(d.where.file) &&
+             e.severity == d.severity && d.text.find(e.text) != std::string::npos;
     };
     auto found = std::find_if(expected.begin(), expected.end(), fits);
-    if (found != expected.end()) found->met = true;
+    if (found != expected.end())
+      found->met = true;
     else
-      ADD_FAILURE() << "unexpected: " << out.sources.name(d.where.file) << ":" << d.where.line << ":" << d.where.column
-                    << ": " << (d.severity == Severity::kError ? "error: " : "warning: ") << d.text;
+      ADD_FAILURE() << "unexpected: " << out.sources.name(d.where.file) << ":" << d.where.line << ":"
+                    << d.where.column << ": " << (d.severity == Severity::kError ? "error: " : "warning: ")
+                    << d.text;
   }
   for (const Expectation& e : expected)
     if (!e.met) ADD_FAILURE() << "missing: " << e.file << ":" << e.line << ": " << e.text;
@@ -113,13 +117,15 @@ TEST(Diagnostics, each_message_has_a_program) {
   for (const std::string& program : programs()) {
     Outcome out;
     compile(program, out);
-    for (const Diagnostic& d : out.diags.sorted()) texts.push_back(d.text);
+    for (const Diagnostic& d : out.diags.sorted())
+      texts.push_back(d.text);
   }
   for (int i = 0; i < static_cast<int>(slc::Msg::kCount); ++i) {
     const slc::MessageInfo& info = slc::message_info(static_cast<slc::Msg>(i));
     if (kWithout.contains(info.id)) continue;
     std::regex pattern = pattern_of(info.text);
-    bool seen = std::any_of(texts.begin(), texts.end(), [&](const std::string& t) { return std::regex_match(t, pattern); });
+    bool seen = std::any_of(texts.begin(), texts.end(),
+                            [&](const std::string& t) { return std::regex_match(t, pattern); });
     EXPECT_TRUE(seen) << "no program in tests/diagnostics brings about " << info.id << ": " << info.text;
   }
 }

@@ -4,3 +4,4 @@
 #define TWICE 1
 #define TWICE 2 // expect-warning: redefinition
 surface s() {}
+/* this goes on to the end // expect-error: is never closed

@@ -47,7 +47,8 @@ TEST(Lex, operators_take_the_longest_form) {
 
 TEST(Lex, annotations_are_kept) {
   Front front;
-  slc::TokenList list = front.lex("#pragma annotation \"author\" \"some\" \"body\"\n#pragma annotation \"id\" \"text\"\n");
+  slc::TokenList list =
+      front.lex("#pragma annotation \"author\" \"some\" \"body\"\n#pragma annotation \"id\" \"text\"\n");
   ASSERT_EQ(list.annotations.size(), 1u);
   EXPECT_EQ(list.annotations[0].id, "id");
   EXPECT_EQ(list.annotations[0].text, "text");

@@ -11,7 +11,8 @@ using slc_test::Front;
 std::string checked(const std::string& statements, const std::string& functions = "") {
   Front front;
   front.diags.no_warnings = true;
-  slc::CheckedSource source = front.check(functions + "surface s(string name = \"a\"; string list[2] = {\"a\", \"b\"}) { " + statements + " }");
+  slc::CheckedSource source = front.check(
+      functions + "surface s(string name = \"a\"; string list[2] = {\"a\", \"b\"}) { " + statements + " }");
   if (front.diags.has_errors()) return front.messages();
   const auto* last = slc::as<slc::ExpressionStmt>(source.unit.shaders[0].body->statements.back().get());
   return slc::print_ast(*last->expressions[0]);
@@ -32,7 +33,8 @@ TEST(Overload, the_result_follows_the_context) {
 }
 
 TEST(Overload, the_other_operand_is_context_too) {
-  expect_row("Ci = Cs * texture(name);", "texture color(uniform string name, uniform float channel, @texture)");
+  expect_row("Ci = Cs * texture(name);",
+             "texture color(uniform string name, uniform float channel, @texture)");
   expect_row("P += N * noise(P);", "noise float(point p)");
   expect_row("P += noise(P);", "noise vector(point p)");
 }
@@ -59,8 +61,10 @@ TEST(Overload, functions_of_the_source_come_first) {
 }
 
 TEST(Overload, channels_become_arguments) {
-  EXPECT_NE(checked("float f; f = texture(name[2], s, t);").find("    2 : uniform float\n"), std::string::npos);
-  EXPECT_NE(checked("float f; f = texture(list[1], s, t);").find("list[] : uniform string\n"), std::string::npos);
+  EXPECT_NE(checked("float f; f = texture(name[2], s, t);").find("    2 : uniform float\n"),
+            std::string::npos);
+  EXPECT_NE(checked("float f; f = texture(list[1], s, t);").find("list[] : uniform string\n"),
+            std::string::npos);
   EXPECT_NE(checked("float f; f = texture(name);").find("    0 : uniform float\n"), std::string::npos);
 }
 
@@ -73,15 +77,19 @@ TEST(Overload, many_arguments_fold_into_pairs) {
 }
 
 TEST(Overload, casts_with_spaces_become_calls) {
-  expect_row("point p; p = point \"world\" (0, 0, 1);", "transform point(uniform string from, uniform string to, point p)");
-  expect_row("Ci = color \"hsv\" (0, 0, 1);", "ctransform color(uniform string from, uniform string to, color c)");
-  expect_row("matrix m; m = matrix \"world\" 1;", "spacematrix uniform matrix(uniform string from, uniform string to)");
+  expect_row("point p; p = point \"world\" (0, 0, 1);",
+             "transform point(uniform string from, uniform string to, point p)");
+  expect_row("Ci = color \"hsv\" (0, 0, 1);",
+             "ctransform color(uniform string from, uniform string to, color c)");
+  expect_row("matrix m; m = matrix \"world\" 1;",
+             "spacematrix uniform matrix(uniform string from, uniform string to)");
 }
 
 TEST(Overload, compound_assignments_read_their_target_once) {
-  EXPECT_EQ(checked("float a[2]; a[1] *= 3;"), "*= : uniform float\n  a[] : uniform float\n    1 : uniform float\n"
-                                               "  * [operator* float(float a, float b)] : uniform float\n"
-                                               "    old value : uniform float\n    3 : uniform float\n");
+  EXPECT_EQ(checked("float a[2]; a[1] *= 3;"),
+            "*= : uniform float\n  a[] : uniform float\n    1 : uniform float\n"
+            "  * [operator* float(float a, float b)] : uniform float\n"
+            "    old value : uniform float\n    3 : uniform float\n");
 }
 
 } // namespace

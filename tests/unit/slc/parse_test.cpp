@@ -19,8 +19,10 @@ std::string tree(const std::string& expression) {
   std::string text = slc::print_ast(*assign->value);
   for (size_t begin = 0; begin < text.size();) {
     size_t end = text.find('\n', begin), indent = text.find_first_not_of(' ', begin) - begin;
-    if (indent / 2 > depth) out += '(';
-    else if (begin > 0) out += std::string(depth - indent / 2, ')') + " ";
+    if (indent / 2 > depth)
+      out += '(';
+    else if (begin > 0)
+      out += std::string(depth - indent / 2, ')') + " ";
     depth = indent / 2;
     out += text.substr(begin + indent, end - begin - indent);
     begin = end + 1;
@@ -55,23 +57,29 @@ TEST(Parse, calls_and_channels) {
 
 TEST(Parse, formals_in_all_their_forms) {
   Front front;
-  slc::TranslationUnit unit = front.parse("float f(float a, b; output varying color c, normal n; point list[], m[3];) { return a; }");
+  slc::TranslationUnit unit =
+      front.parse("float f(float a, b; output varying color c, normal n; point list[], m[3];) { return a; }");
   EXPECT_EQ(front.messages(), "");
-  EXPECT_EQ(slc::print_ast(unit), "function float f\n  formal float a\n  formal float b\n  formal output varying color c\n"
-                                  "  formal normal n\n  formal point[] list\n  formal point[] m\n    length\n      3\n"
-                                  "  block\n    return\n      a\n");
+  EXPECT_EQ(slc::print_ast(unit),
+            "function float f\n  formal float a\n  formal float b\n  formal output varying color c\n"
+            "  formal normal n\n  formal point[] list\n  formal point[] m\n    length\n      3\n"
+            "  block\n    return\n      a\n");
 }
 
 TEST(Parse, words_are_names_where_they_can_be) {
   Front front;
-  front.parse("surface s(float gather = 1, light = 2) { float solar = gather; float struct = light; solar += struct; }");
+  front.parse("surface s(float gather = 1, light = 2) { float solar = gather; float struct = light; solar += "
+              "struct; }");
   EXPECT_EQ(front.messages(), "");
 }
 
 TEST(Parse, survives_any_cut) {
-  std::string text = "float f(float a, b; output color c[2]) { if (a > b) c[0] = (1, 2, 3); else while (a < 2) { break 1; } return a; }\n"
-                     "surface s(string n = \"x\"; float k[2] = {1, 2}) { illuminance(P, N, 1) { Ci += texture(n[0], s, t); } "
-                     "gather(\"\", P, N, 0, 1, \"ray:length\", k) { ; } else ; for (k = 1; k < 2; k += 1) float g() { return 1; } }";
+  std::string text = "float f(float a, b; output color c[2]) { if (a > b) c[0] = (1, 2, 3); else while (a < "
+                     "2) { break 1; } return a; }\n"
+                     "surface s(string n = \"x\"; float k[2] = {1, 2}) { illuminance(P, N, 1) { Ci += "
+                     "texture(n[0], s, t); } "
+                     "gather(\"\", P, N, 0, 1, \"ray:length\", k) { ; } else ; for (k = 1; k < 2; k += 1) "
+                     "float g() { return 1; } }";
   for (size_t cut = 0; cut < text.size(); ++cut) {
     Front front;
     front.check(text.substr(0, cut));
@@ -86,13 +94,15 @@ TEST(Parse, depth_is_bounded) {
   for (const char* unit : {"(", "-", "{", "if (1) ", "float ", "x = ", "f(", "a[", "1 ? ", "{ float f() "}) {
     Front front;
     std::string text = "surface s() { ";
-    for (int i = 0; i < 100'000; ++i) text += unit;
+    for (int i = 0; i < 100'000; ++i)
+      text += unit;
     front.check(text);
     EXPECT_TRUE(front.diags.has_errors()) << unit;
   }
   Front chain;
   std::string text = "surface s() { Ci = 1";
-  for (int i = 0; i < 100'000; ++i) text += " + 1";
+  for (int i = 0; i < 100'000; ++i)
+    text += " + 1";
   chain.check(text + "; }");
   EXPECT_TRUE(chain.diags.has_errors());
 }

@@ -10,8 +10,9 @@ using slc_test::Front;
 
 TEST(Sema, defaults_keep_the_space_they_are_written_in) {
   Front front;
-  slc::CheckedSource source = front.check("light l(point from = point \"shader\" (0, 0, 0); color c = color \"hsv\" (0, 1, 1); float a = 1) "
-                                          "{ illuminate(from) Cl = c * a; }");
+  slc::CheckedSource source = front.check(
+      "light l(point from = point \"shader\" (0, 0, 0); color c = color \"hsv\" (0, 1, 1); float a = 1) "
+      "{ illuminate(from) Cl = c * a; }");
   EXPECT_EQ(front.messages(), "");
   const slc::Shader& shader = source.unit.shaders.front();
   EXPECT_EQ(shader.params[0]->init_space, "shader");
@@ -21,7 +22,8 @@ TEST(Sema, defaults_keep_the_space_they_are_written_in) {
 
 TEST(Sema, nested_functions_reach_outer_variables_by_extern) {
   Front front;
-  front.check("surface s() { float k = 2; float f(float x) { extern float k; extern vector I; return k * x * length(I); } Ci = f(3); }");
+  front.check("surface s() { float k = 2; float f(float x) { extern float k; extern vector I; return k * x * "
+              "length(I); } Ci = f(3); }");
   EXPECT_EQ(front.messages(), "");
 }
 
@@ -32,9 +34,17 @@ TEST(Sema, detail_follows_the_call) {
   EXPECT_EQ(front.messages(), "");
 }
 
+TEST(Sema, output_parameters_set_in_light_loops_come_to_an_end) {
+  Front front;
+  front.check("surface s(output float n = 0; output varying float m = 0) { illuminance(P) { n += 1; m += n; "
+              "} Ci = n; }");
+  EXPECT_EQ(front.messages(), "");
+}
+
 TEST(Sema, annotations_go_to_their_shader) {
   Front front;
-  slc::CheckedSource source = front.check("#pragma annotation \"first\" \"1\"\nsurface a() {}\nsurface b()\n{\n#pragma annotation \"second\" \"2\"\n}\n");
+  slc::CheckedSource source = front.check("#pragma annotation \"first\" \"1\"\nsurface a() {}\nsurface "
+                                          "b()\n{\n#pragma annotation \"second\" \"2\"\n}\n");
   ASSERT_EQ(source.unit.shaders.size(), 2u);
   ASSERT_EQ(source.unit.shaders[0].annotations.size(), 1u);
   EXPECT_EQ(source.unit.shaders[0].annotations[0].id, "first");
@@ -58,7 +68,8 @@ TEST(Sema, one_compiler_serves_many_threads) {
       slvm::SourceManager sources;
       slvm::Diagnostics diags;
       slc::CheckedSource source = compiler.check(
-          sources.add("a.sl", "surface a() { Ci = diffuse(normalize(N)) + specular(N, -I, .1); }"), {}, sources, diags);
+          sources.add("a.sl", "surface a() { Ci = diffuse(normalize(N)) + specular(N, -I, .1); }"), {},
+          sources, diags);
       EXPECT_FALSE(diags.has_errors());
     }
   };

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 class Tool : public testing::Test {
 protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / ("slc_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = fs::path(testing::TempDir()) /
+              ("slc_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -33,11 +34,14 @@ protected:
     FILE* pipe = popen(command.c_str(), "r");
     output_.clear();
     std::array<char, 4096> buffer;
-    for (size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) output_.append(buffer.data(), n);
+    for (size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+      output_.append(buffer.data(), n);
     return WEXITSTATUS(pclose(pipe));
   }
   bool exists(const std::string& name) { return fs::exists(folder_ / name); }
-  std::string read(const std::string& name) { return slc::read_file((folder_ / name).string()).value_or("none"); }
+  std::string read(const std::string& name) {
+    return slc::read_file((folder_ / name).string()).value_or("none");
+  }
 
   fs::path folder_;
   std::string output_;
@@ -78,7 +82,8 @@ TEST_F(Tool, goes_on_after_a_failure) {
 
 TEST_F(Tool, macros_and_include_folders_in_both_spellings) {
   write("inc/k.h", "#define K 1\n");
-  write("a.sl", "#include \"k.h\"\n#if A != 2 || !defined(B) || defined(C) || !defined(ANEMONE)\n#error\n#endif\nsurface a() { Ci = K; }");
+  write("a.sl", "#include \"k.h\"\n#if A != 2 || !defined(B) || defined(C) || "
+                "!defined(ANEMONE)\n#error\n#endif\nsurface a() { Ci = K; }");
   EXPECT_EQ(run("-Iinc -DA=2 -D B -DC -UC a.sl"), 0) << output_;
   EXPECT_EQ(run("-I inc -D A=2 -DB -U C -D C a.sl"), 0) << output_;
 }
