@@ -49,7 +49,11 @@ public:
   }
 
 private:
-  void fail(const Where& where, std::string text) { failures_.push_back({where, std::move(text)}); }
+  void fail(const Where& where, std::string text) {
+    while (text.ends_with('\n'))
+      text.pop_back();
+    failures_.push_back({where, std::move(text)});
+  }
 
   void check_variable(const Expectation& e) {
     const Variable* v = result_.find(e.variable);

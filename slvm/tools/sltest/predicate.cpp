@@ -32,19 +32,29 @@ std::string output_macros(const RunResult& result) {
   return text;
 }
 
-/// Each triple stands for one of its components, color(a, b, c) for one of its arguments.
-std::string component_macros(const GridData& grid, const RunResult& result, int component) {
+/// Declares a float that is one component of `value`, under the name by which the predicate knows it.
+std::string component_variable(const std::string& name, const std::string& value, int component) {
+  return fmt::format("float component_{0} = comp({1}, {2});\n#define {0} component_{0}\n", name, value,
+                     component);
+}
+
+/// Outputs, and with `inputs` all other triples too, stand for one of their components, color(a, b, c) for
+/// one of its arguments. Functions that look at whole triples then make no sense, and become errors.
+std::string component_macros(const GridData& grid, const RunResult& result, int component, bool inputs) {
   std::string text;
   for (const Variable& v : grid.variables)
-    if (is_triple(v.type) && !v.elements && !result.find(v.name) && !v.name.starts_with(kOutputPrefix))
-      text += fmt::format("#define {0} comp({0}, {1})\n", v.name, component);
-  for (const Variable& v : result.outputs) {
-    const char* form =
-        is_triple(v.type) && !v.elements ? "#define {0} comp({1}{0}, {2})\n" : "#define {0} {1}{0}\n";
-    text += fmt::format(fmt::runtime(form), v.name, kOutputPrefix, component);
-  }
+    if (inputs && is_triple(v.type) && !v.elements && !result.find(v.name) &&
+        !v.name.starts_with(kOutputPrefix))
+      text += component_variable(v.name, v.name, component);
+  for (const Variable& v : result.outputs)
+    text += is_triple(v.type) && !v.elements ? component_variable(v.name, kOutputPrefix + v.name, component)
+                                             : fmt::format("#define {0} {1}{0}\n", v.name, kOutputPrefix);
   for (const char* type : {"color", "point", "vector", "normal"})
     text += fmt::format("#define {}(a, b, c) ({})\n", type, "abc"[component]);
+  if (inputs)
+    for (const char* name :
+         {"xcomp", "ycomp", "zcomp", "comp", "length", "normalize", "distance", "transform"})
+      text += fmt::format("#define {0} {0}_of_a_component\n", name);
   return text;
 }
 
@@ -81,13 +91,18 @@ Result<std::vector<bool>> evaluate_predicate(ShaderLibrary& library, const RawVa
     merge(*whole);
     return holds;
   }
-  for (int component = 0; component < 3; ++component) {
-    options.macros = component_macros(grid, result, component);
-    auto part = evaluate_code(library, code, grid, prepared.scene, options);
-    if (!part) return Error{whole.error()};
-    merge(*part);
+  // By component: first the outputs alone, then all triples.
+  for (bool inputs : {false, true}) {
+    int done = 0;
+    for (; done < 3; ++done) {
+      options.macros = component_macros(grid, result, done, inputs);
+      auto part = evaluate_code(library, code, grid, prepared.scene, options);
+      if (!part) break;
+      merge(*part);
+    }
+    if (done == 3) return holds;
   }
-  return holds;
+  return Error{whole.error()};
 }
 
 } // namespace slvm::sltest

@@ -151,6 +151,8 @@ Result<GridData> make_shape(const GridSpec& spec, ShaderKind kind) {
   grid.set(uniform("dv", {element(spec.nv, spec.center)}));
   grid.set(uniform("I", {0, 0, 1}));
   grid.set(uniform("E", {0, 0, 0}));
+  grid.set(uniform("Cs", {1, 1, 1}));
+  grid.set(uniform("Os", {1, 1, 1}));
   if (kind == ShaderKind::kLight) {
     grid.set(renamed(*grid.find("P"), "Ps"));
     grid.set(renamed(*grid.find("N"), "Ns"));

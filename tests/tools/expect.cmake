@@ -1,0 +1,16 @@
+# Runs COMMAND and compares its exit status with STATUS and what it prints, stdout and stderr together, with TEXTS:
+# parts separated by '|', each of which must occur.
+separate_arguments(command UNIX_COMMAND "${COMMAND}")
+execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
+if(NOT status STREQUAL STATUS)
+  message(FATAL_ERROR "exit status ${status}, not ${STATUS}:\n${out}")
+endif()
+string(REPLACE "|" ";" texts "${TEXTS}")
+foreach(text IN LISTS texts)
+  string(REPLACE "\\n" "\n" text "${text}")
+  string(REPLACE "\\t" "\t" text "${text}")
+  string(FIND "${out}" "${text}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "'${text}' is missing in:\n${out}")
+  endif()
+endforeach()
