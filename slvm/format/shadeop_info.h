@@ -25,20 +25,18 @@ enum ShadeopFlags : uint32_t {
   kPure = 0,                ///< depends on its arguments only (default)
   kHiddenVarying = 1u << 0, ///< what it stores is varying even when all arguments are uniform (random, Du,
                             ///< messages); not a result declared uniform, nor strings
-  kDerivative = 1u << 1, ///< differentiates its first varying arguments along u and v
+  kDerivative = 1u << 1,    ///< differentiates its first varying arguments along u and v
   kEffect = 1u << 2, ///< must be executed, in order, exactly where it stands (printf, messages that store)
-  kReadsState = 1u << 3,   ///< reads state that effects may change: not merged across them
-  kLights = 1u << 4,       ///< runs light shaders
-  kFoldLeft = 1u << 5,     ///< f(a,b,c) means f(f(a,b),c): variadic in the language, binary in the kernel
-  kInternal = 1u << 6,     ///< not callable from source: an operator, or a helper of an RSL body
-  kNoFold = 1u << 7,       ///< never folded to a constant at compile time
-  kStringPool = 1u << 8,   ///< uniform strings in or out: runs at grid level with access to the string table
-  kLightOnly = 1u << 9,    ///< legal in light shaders only
-  kSurfaceOnly = 1u << 10, ///< not legal in light shaders
-  kInIlluminance = 1u << 11, ///< legal inside an illuminance loop only
-  kRays = 1u << 12,          ///< traces rays
-  kTexture = 1u << 13,       ///< reads texture, environment or shadow maps
-  kContextOut = 1u << 14,    ///< outputs keep their old value where the call finds nothing
+  kReadsState = 1u << 3,    ///< reads state that effects may change: not merged across them
+  kLights = 1u << 4,        ///< runs light shaders
+  kFoldLeft = 1u << 5,      ///< f(a,b,c) means f(f(a,b),c): variadic in the language, binary in the kernel
+  kInternal = 1u << 6,      ///< not callable from source: an operator, or a helper of an RSL body
+  kNoFold = 1u << 7,        ///< never folded to a constant at compile time
+  kSurfaceOnly = 1u << 8,   ///< not legal in light shaders
+  kInIlluminance = 1u << 9, ///< legal inside an illuminance loop only
+  kRays = 1u << 10,         ///< traces rays
+  kTexture = 1u << 11,      ///< reads texture, environment or shadow maps
+  kContextOut = 1u << 12,   ///< outputs keep their old value where the call finds nothing
 };
 
 struct ShadeopInfo {
