@@ -15,7 +15,7 @@ namespace slvm::sltest {
 
 Result<bool> write_variable(const std::string& path, const Variable& variable, int nu, int nv);
 
-/// image_oiio.cpp, or image_none.cpp in a build without the library. `pixels`: row by row, interleaved.
+/// By the module sltest_images.so, where there is one. `pixels`: row by row, interleaved.
 Result<bool> write_image(const std::string& path, const std::vector<float>& pixels, int nu, int nv,
                          int channels);
 

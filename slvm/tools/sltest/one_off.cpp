@@ -74,6 +74,8 @@ public:
     int threads = options_.threads;
     if (threads == 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     ParallelRun run(*binding, threads, options_.iterations);
+    for (RunResult& result : run.results)
+      result.messages = binding->messages(); // now that all have come to an end
     result_ = std::move(run.results[0]);
     for (size_t t = 1; t < run.results.size(); ++t)
       compare(run.results[t]);

@@ -138,6 +138,7 @@ double Worker::shade() {
   const Prepared& prepared = *binding_.prepared_;
   grid_.reset(prepared.grid.nu, prepared.grid.nv);
   fill(grid_, prepared.grid, binding_.machine_.strings());
+  services_.forget_printed();
   const auto start = std::chrono::steady_clock::now();
   if (prepared.kind == ShaderKind::kSurface || prepared.kind == ShaderKind::kDisplacement)
     context_.shade(binding_.set_, grid_);
@@ -170,7 +171,7 @@ RunResult Worker::result() const {
       result.outputs.push_back(read(p.name, *planes, points, strings));
   }
   result.printed = services_.printed();
-  result.messages = binding_.machine_.messages();
+  result.messages = binding_.messages();
   return result;
 }
 

@@ -58,6 +58,8 @@ public:
   const Prepared& prepared() const { return *prepared_; }
   const Instance& main() const { return *main_; }
   const std::string& warnings() const { return warnings_; }
+  /// Run-time messages of all workers so far.
+  std::vector<RuntimeMessage> messages() const { return machine_.messages(); }
 
 private:
   friend class Worker;

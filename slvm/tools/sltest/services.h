@@ -35,6 +35,7 @@ public:
   void print(const ShadingState&, std::string_view text) override { printed_ += text; }
 
   const std::string& printed() const { return printed_; }
+  void forget_printed() { printed_.clear(); }
 
 private:
   const Scene& scene_;
