@@ -41,7 +41,7 @@ bench:
 	@build/release/bin/anemone_bench
 
 fuzz:
-	@.ci/install-deps clang
+	@.ci/install-deps clang libclang-rt-dev
 	$(call build,fuzz)
 	@.ci/fuzz build/fuzz
 

@@ -251,11 +251,12 @@ Result<Program> read_slo(std::span<const std::byte> bytes) {
   if (hash != hash_bytes(payload))
     return Error{"damaged: the contents do not match their checksum (truncated or altered)"};
   // FlatBuffers wants its data aligned; a span of a file need not be.
+  if (payload.empty()) return Error{"damaged: the container is empty"};
   std::vector<uint64_t> aligned((payload.size() + 7) / 8);
   std::memcpy(aligned.data(), payload.data(), payload.size());
   const auto* data = reinterpret_cast<const uint8_t*>(aligned.data());
   flatbuffers::Verifier verifier(data, payload.size(), 64, 50'000'000);
-  if (payload.empty() || !verifier.VerifyBuffer<fb::Shader>(nullptr))
+  if (!verifier.VerifyBuffer<fb::Shader>(nullptr))
     return Error{"damaged: the container is not well-formed"};
   const auto* root = flatbuffers::GetRoot<fb::Shader>(data);
   Program program;
