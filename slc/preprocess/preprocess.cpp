@@ -100,7 +100,8 @@ public:
   // Appends a token of the output.
   void emit(Place place, std::string_view text, bool is_pragma);
 
-  template <class Exception> void report_exception(const Exception& e);
+  /// `lost`: text after this place is lost, so that even a warning is an error.
+  template <class Exception> void report_exception(const Exception& e, bool lost = false);
 
 private:
   void note_definition_line(Place p) { definition_lines_.insert({p.file, p.line}); }
@@ -220,13 +221,13 @@ void State::emit(Place p, std::string_view text, bool is_pragma) {
                                                           : Place{p.file, p.line, p.column + text.size()};
 }
 
-template <class Exception> void State::report_exception(const Exception& e) {
+template <class Exception> void State::report_exception(const Exception& e, bool lost) {
   Place p{file_id(e.file_name()), e.line_no(), e.column_no()};
   SourceRange where = word_range(p, 0);
   std::string_view text = e.description();
   size_t colon = text.find(": "); // "error: ", "fatal error: "
   if (colon != std::string_view::npos) text.remove_prefix(colon + 2);
-  bool warning = e.get_severity() < wave::util::severity_error;
+  bool warning = !lost && e.get_severity() < wave::util::severity_error;
   report(diags_, warning ? Msg::kPreprocessorWarning : Msg::kPreprocessor, where, text);
 }
 
@@ -289,11 +290,22 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
   }
   template <class Context, class Exception> void throw_exception(const Context&, const Exception& e) {
     if (std::exchange(reported, false)) return;
-    if (e.get_severity() < wave::util::severity_error)
-      state->report_exception(e);
-    else
-      boost::throw_exception(e);
+    if (goes_on(e)) state->report_exception(e);
+    else boost::throw_exception(e);
   }
+
+private:
+  // The warnings behind which Wave's state is sound without the exception.
+  static bool goes_on(const wave::preprocess_exception& e) {
+    switch (e.get_errorcode()) {
+    case wave::preprocess_exception::macro_redefinition:
+    case wave::preprocess_exception::warning_directive:
+    case wave::preprocess_exception::ill_formed_pragma_option:
+    case wave::preprocess_exception::pragma_message_directive: return true;
+    default: return false;
+    }
+  }
+  static bool goes_on(const std::exception&) { return false; }
 };
 
 using Token = wave::cpplexer::lex_token<>;
@@ -324,11 +336,11 @@ void run(Context& context, State& state) {
       }
       finished = true;
     } catch (const wave::cpplexer::lexing_exception& e) {
-      state.report_exception(e);
       finished = !e.is_recoverable();
+      state.report_exception(e, finished);
     } catch (const wave::cpp_exception& e) {
-      state.report_exception(e);
       finished = !wave::is_recoverable(e);
+      state.report_exception(e, finished);
     }
   }
 }
@@ -358,9 +370,9 @@ PreprocessedText preprocess(FileId main, const PreprocessOptions& options, slvm:
   } catch (const GiveUp&) {
     // reported
   } catch (const wave::cpplexer::lexing_exception& e) {
-    state.report_exception(e);
+    state.report_exception(e, true);
   } catch (const wave::cpp_exception& e) {
-    state.report_exception(e);
+    state.report_exception(e, true);
   } catch (const std::exception& e) {
     report(diags, Msg::kPreprocessor, SourceRange{main, 0, 0, 0}, e.what());
   }

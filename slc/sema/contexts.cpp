@@ -17,10 +17,14 @@
 namespace slc {
 namespace {
 
+// How much a value varies, as bits to be or-ed. kSomewhere: only because a declared uniform was set at some points and
+// not at others; what is declared uniform may take that, and varies likewise. kVarying: by itself.
+enum Variation : unsigned { kUniform = 0, kSomewhere = 1, kVarying = 3 };
+
 // A variable in one expansion of the function it belongs to.
 struct VarState {
   const Variable* declared = nullptr;
-  bool varying = false;
+  unsigned variation = kUniform;
   int hard = 0, soft = 0; // control around the declaration
 };
 
@@ -30,7 +34,7 @@ struct Instance {
   std::map<const CallExpr*, std::unique_ptr<Instance>> calls;
   std::set<const Stmt*> soft_loops; // loops some lanes leave earlier than others
   bool soft_rest = false;           // some lanes have returned already
-  bool result_varying = false;
+  unsigned result = kUniform;
 };
 
 // What was reported where: one function may be expanded in many places.
@@ -88,21 +92,22 @@ private:
   void gather(GatherStmt& s);
   void loop_body(const Stmt& loop, Stmt* body);
 
-  bool value(Expr* e);
-  bool value_here(Expr& e);
-  bool values(std::vector<ExprPtr>& list);
-  bool call(CallExpr& e);
-  bool inlined(CallExpr& e);
-  bool row_call(CallExpr& e);
-  void tokens(std::vector<TokenArg>& list, bool varying_output);
-  bool assign(AssignExpr& e);
-  bool read(const Variable* v, SourceRange where);
-  void store(Expr& place, bool varying, SourceRange where);
-  void store_variable(VarState& state, bool varying, SourceRange where, std::string_view name);
+  unsigned value(Expr* e);
+  unsigned value_here(Expr& e);
+  unsigned values(std::vector<ExprPtr>& list);
+  unsigned call(CallExpr& e);
+  unsigned inlined(CallExpr& e);
+  unsigned row_call(CallExpr& e);
+  unsigned tokens(std::vector<TokenArg>& list, unsigned output);
+  unsigned assign(AssignExpr& e);
+  unsigned read(const Variable* v, SourceRange where);
+  void store(Expr& place, unsigned variation, SourceRange where);
+  void store_variable(VarState& state, unsigned variation, SourceRange where, std::string_view name);
   static bool draws_once(const Expr* value, const Variable& target);
 
   VarState& state(const Variable& v);
   void mark(bool& flag) { changed_ |= !std::exchange(flag, true); }
+  void mark(unsigned& variation, unsigned more) { changed_ |= std::exchange(variation, variation | more) != variation; }
   int control() const { return hard_ + soft_; }
   Instance& here() { return *frame_.instance; }
   void check_global(const Variable& v, bool store, SourceRange where);
@@ -122,7 +127,7 @@ private:
   size_t expansions_ = 0;
   int hard_ = 0, soft_ = 0;
   int illuminance_ = 0, emission_ = 0; // loops around this point, callers' included
-  bool old_value_varying_ = false;     // of the target of a compound assignment
+  unsigned old_value_ = kUniform;      // of the target of a compound assignment
   bool changed_ = false, reporting_ = false, gave_up_ = false;
 };
 
@@ -132,9 +137,7 @@ void ContextWalk::walk_shader() {
   hard_ = soft_ = illuminance_ = emission_ = 0;
   for (Variable* v : shader_.params) {
     VarState& s = state(*v);
-    if (v->detail_given && v->detail == Detail::kVarying)
-      s.varying = true; // never back: the walk is repeated until it settles
-    if (value(v->init.get()) && !s.varying && !draws_once(v->init.get(), *v))
+    if (value(v->init.get()) && s.variation == kUniform && !draws_once(v->init.get(), *v))
       complain(Msg::kVaryingToUniform, v->init->range, v->name);
   }
   statement(shader_.body.get());
@@ -145,7 +148,7 @@ VarState& ContextWalk::state(const Variable& v) {
   VarState& s = here().variables[&v];
   if (!s.declared) {
     s.declared = &v;
-    s.varying = v.detail_given && v.detail == Detail::kVarying;
+    s.variation = v.detail_given && v.detail == Detail::kVarying ? kVarying : kUniform;
   }
   bound_[&v] = &s;
   return s;
@@ -224,10 +227,11 @@ void ContextWalk::jump(const JumpStmt& s) {
 
 void ContextWalk::leave(ReturnStmt& s) {
   bool uniform_function = frame_.function && frame_.function->result_uniform;
-  bool varying = !(uniform_function && is_random(s.value.get())) && value(s.value.get());
+  unsigned variation = uniform_function && is_random(s.value.get()) ? kUniform : value(s.value.get());
   bool some_lanes = control() > frame_.control; // only
-  if (varying || some_lanes) mark(here().result_varying);
-  if (uniform_function && varying) complain(Msg::kVaryingResult, s.value->range, frame_.function->name);
+  mark(here().result, some_lanes ? kVarying : variation);
+  if (uniform_function && variation == kVarying)
+    complain(Msg::kVaryingResult, s.value->range, frame_.function->name);
   if (!some_lanes) return;
   mark(here().soft_rest);
   for (const Loop& left : frame_.loops)
@@ -242,7 +246,7 @@ void ContextWalk::illuminance(IlluminanceStmt& s) {
   value(s.position.get());
   value(s.axis.get());
   value(s.angle.get());
-  tokens(s.tokens, true);
+  tokens(s.tokens, kVarying);
   ++illuminance_;
   ++soft_;
   loop_body(s, s.body.get());
@@ -271,71 +275,69 @@ void ContextWalk::gather(GatherStmt& s) {
   for (ExprPtr* e : {&s.position, &s.direction, &s.angle, &s.samples})
     value(e->get());
   ++hard_;
-  tokens(s.tokens, true);
+  tokens(s.tokens, kVarying);
   loop_body(s, s.body.get());
   loop_body(s, s.else_body.get());
   --hard_;
 }
 
-bool ContextWalk::values(std::vector<ExprPtr>& list) {
-  bool varying = false;
+unsigned ContextWalk::values(std::vector<ExprPtr>& list) {
+  unsigned variation = kUniform;
   for (ExprPtr& e : list)
-    varying |= value(e.get());
-  return varying;
+    variation |= value(e.get());
+  return variation;
 }
 
-// Whether the value varies; notes it in the node.
-bool ContextWalk::value(Expr* e) {
-  if (!e || gave_up_) return false;
-  bool varying = value_here(*e);
-  if (varying) e->detail = Detail::kVarying;
-  return varying;
+// How much the value varies; notes it in the node.
+unsigned ContextWalk::value(Expr* e) {
+  if (!e || gave_up_) return kUniform;
+  unsigned variation = value_here(*e);
+  if (variation) e->detail = Detail::kVarying;
+  return variation;
 }
 
-bool ContextWalk::value_here(Expr& e) {
+unsigned ContextWalk::value_here(Expr& e) {
   switch (e.kind) {
   case ExprKind::kNumber:
-  case ExprKind::kString: return false;
+  case ExprKind::kString: return kUniform;
   case ExprKind::kVariable: return read(as<VariableExpr>(&e)->variable, e.range);
   case ExprKind::kIndex: {
-    bool index = value(as<IndexExpr>(&e)->index.get());
-    return read(as<IndexExpr>(&e)->variable, e.range) || index;
+    unsigned index = value(as<IndexExpr>(&e)->index.get());
+    return read(as<IndexExpr>(&e)->variable, e.range) | index;
   }
   case ExprKind::kTuple: return values(as<TupleExpr>(&e)->elements);
   case ExprKind::kArrayInit: return values(as<ArrayInitExpr>(&e)->elements);
   case ExprKind::kOperator: return values(as<OperatorExpr>(&e)->operands);
   case ExprKind::kLogical: {
-    bool left = value(as<LogicalExpr>(&e)->left.get());
-    hard_ += left;
-    bool right = value(as<LogicalExpr>(&e)->right.get());
-    hard_ -= left;
-    return left || right;
+    unsigned left = value(as<LogicalExpr>(&e)->left.get());
+    hard_ += left ? 1 : 0;
+    unsigned right = value(as<LogicalExpr>(&e)->right.get());
+    hard_ -= left ? 1 : 0;
+    return left | right;
   }
   case ExprKind::kConditional: {
     auto& c = *as<ConditionalExpr>(&e);
-    bool condition = value(c.condition.get());
-    hard_ += condition;
-    bool sides = value(c.then_value.get());
+    unsigned condition = value(c.condition.get());
+    hard_ += condition ? 1 : 0;
+    unsigned sides = value(c.then_value.get());
     sides |= value(c.else_value.get());
-    hard_ -= condition;
-    return condition || sides;
+    hard_ -= condition ? 1 : 0;
+    return condition | sides;
   }
   case ExprKind::kConvert: return value(as<ConvertExpr>(&e)->operand.get());
   case ExprKind::kCast: return value(as<CastExpr>(&e)->operand.get());
   case ExprKind::kCall: return call(*as<CallExpr>(&e));
   case ExprKind::kAssign: return assign(*as<AssignExpr>(&e));
-  case ExprKind::kTargetValue: return old_value_varying_;
+  case ExprKind::kTargetValue: return old_value_;
   }
-  return true;
+  return kVarying;
 }
 
-bool ContextWalk::read(const Variable* v, SourceRange where) {
-  if (!v) return false;
-  if (v->kind == VariableKind::kGlobal) {
-    check_global(*v, false, where);
-    return v->detail == Detail::kVarying;
-  }
-  return state(*v).varying;
+unsigned ContextWalk::read(const Variable* v, SourceRange where) {
+  if (!v) return kUniform;
+  if (v->kind != VariableKind::kGlobal) return state(*v).variation;
+  check_global(*v, false, where);
+  return v->detail == Detail::kVarying ? kVarying : kUniform;
 }
 
 void ContextWalk::check_global(const Variable& v, bool store, SourceRange where) {
@@ -359,36 +361,32 @@ void ContextWalk::check_global(const Variable& v, bool store, SourceRange where)
   }
 }
 
-void ContextWalk::store_variable(VarState& s, bool varying, SourceRange where, std::string_view name) {
+void ContextWalk::store_variable(VarState& s, unsigned variation, SourceRange where, std::string_view name) {
   const Variable& v = *s.declared;
   bool some_points = control() > s.hard + s.soft; // only
-  if (!always_uniform(v)) {
-    if (varying || some_points) mark(s.varying);
-    return;
-  }
+  if (!always_uniform(v)) return mark(s.variation, some_points ? kVarying : variation);
   if (hard_ > s.hard) complain(Msg::kUniformUnderVarying, where, name);
-  // Set at some points only, it varies in fact; what follows from that is no error.
-  if (some_points && v.type != Type::kString)
-    mark(s.varying);
-  else if (varying && !s.varying)
+  if (variation == kVarying && !some_points && s.variation == kUniform)
     complain(Msg::kVaryingToUniform, where, name);
+  else if ((some_points && v.type != Type::kString) || variation == kSomewhere)
+    mark(s.variation, kSomewhere);
 }
 
-void ContextWalk::store(Expr& place, bool varying, SourceRange where) {
+void ContextWalk::store(Expr& place, unsigned variation, SourceRange where) {
   const Variable* v = nullptr;
   if (auto* name = as<VariableExpr>(&place)) v = name->variable;
   if (auto* element = as<IndexExpr>(&place)) {
     v = element->variable;
-    varying |= value(element->index.get());
+    variation |= value(element->index.get());
   }
   if (!v) return;
   if (v->kind == VariableKind::kGlobal) {
     check_global(*v, true, where);
-    if (v->detail == Detail::kUniform && varying) complain(Msg::kVaryingToUniform, where, v->name);
+    if (v->detail == Detail::kUniform && variation) complain(Msg::kVaryingToUniform, where, v->name);
     return;
   }
-  store_variable(state(*v), varying, where, v->name);
-  if (state(*v).varying) place.detail = Detail::kVarying;
+  store_variable(state(*v), variation, where, v->name);
+  if (state(*v).variation) place.detail = Detail::kVarying;
 }
 
 // random() straight into a declared uniform is drawn once for the grid.
@@ -396,45 +394,45 @@ bool ContextWalk::draws_once(const Expr* e, const Variable& target) {
   return always_uniform(target) && is_random(e);
 }
 
-bool ContextWalk::assign(AssignExpr& e) {
+unsigned ContextWalk::assign(AssignExpr& e) {
   const Variable* v = nullptr;
   if (auto* name = as<VariableExpr>(e.target.get())) v = name->variable;
   if (auto* element = as<IndexExpr>(e.target.get())) v = element->variable;
   if (v && draws_once(e.value.get(), *v)) {
-    store(*e.target, false, e.target->range);
-    return false;
+    store(*e.target, kUniform, e.target->range);
+    return kUniform;
   }
-  bool outer = old_value_varying_;
-  if (e.compound) old_value_varying_ = value(e.target.get());
-  bool varying = value(e.value.get());
-  old_value_varying_ = outer;
-  store(*e.target, varying, e.value->range);
-  return varying;
+  unsigned outer = old_value_;
+  if (e.compound) old_value_ = value(e.target.get());
+  unsigned variation = value(e.value.get());
+  old_value_ = outer;
+  store(*e.target, variation, e.value->range);
+  return variation;
 }
 
-bool ContextWalk::call(CallExpr& e) {
+unsigned ContextWalk::call(CallExpr& e) {
   bool rsl_body = e.shadeop != kNoShadeop;
   if (e.function && !rsl_body) return inlined(e);
   if (rsl_body) return row_call(e);
   return values(e.args);
 }
 
-bool ContextWalk::row_call(CallExpr& e) {
+unsigned ContextWalk::row_call(CallExpr& e) {
   const slvm::ShadeopInfo& info = slvm::shadeop(e.shadeop);
   const slvm::Signature& signature = info.signature;
   check_row_place(e, info.flags);
-  bool varying = (info.flags & slvm::kHiddenVarying) != 0;
+  unsigned variation = info.flags & slvm::kHiddenVarying ? kVarying : kUniform;
   auto param = [&](size_t i) -> const slvm::SignatureParam& { return signature.param(static_cast<int>(i)); };
   // Surplus formals of an RSL body take token-value pairs.
   size_t count =
       signature.variadic() ? e.args.size() : std::min<size_t>(e.args.size(), signature.param_count);
   for (size_t i = 0; i < e.args.size(); ++i) {
     if (i < count && param(i).output && !param(i).input) continue;
-    bool arg = value(e.args[i].get());
+    unsigned arg = value(e.args[i].get());
     if (arg && i < count && param(i).uniform)
       complain(Msg::kNeedsUniform, e.args[i]->range, param(i).name, e.name);
     bool message = i < count && param(i).output && param(i).any;
-    varying |= arg && !message;
+    if (!message) variation |= arg;
   }
   for (size_t i = 0; i < count; ++i) {
     if (!param(i).output) continue;
@@ -442,12 +440,11 @@ bool ContextWalk::row_call(CallExpr& e) {
     const auto* place = as<VariableExpr>(e.args[i].get());
     bool uniform_target = param(i).any && place && place->variable &&
                           (always_uniform(*place->variable) || place->variable->type == Type::kString);
-    store(*e.args[i], !uniform_target && (varying || param(i).any), e.args[i]->range);
+    unsigned brought = uniform_target ? kUniform : param(i).any ? kVarying : variation;
+    store(*e.args[i], brought, e.args[i]->range);
   }
-  tokens(e.tokens, varying);
-  for (TokenArg& t : e.tokens)
-    varying |= t.value && t.value->detail == Detail::kVarying && !(t.info && t.info->output);
-  return varying && !signature.uniform_result && signature.result != Type::kVoid;
+  variation |= tokens(e.tokens, variation);
+  return signature.uniform_result || signature.result == Type::kVoid ? kUniform : variation;
 }
 
 void ContextWalk::check_row_place(const CallExpr& e, uint32_t flags) {
@@ -457,26 +454,31 @@ void ContextWalk::check_row_place(const CallExpr& e, uint32_t flags) {
     complain(Msg::kOutsideIlluminance, e.range, e.name);
 }
 
-void ContextWalk::tokens(std::vector<TokenArg>& list, bool varying_output) {
+// How much the inputs among the pairs vary; `output`: how much the outputs do.
+unsigned ContextWalk::tokens(std::vector<TokenArg>& list, unsigned output) {
+  unsigned inputs = kUniform;
   for (TokenArg& t : list) {
     if (value(t.token.get())) complain(Msg::kNeedsUniform, t.token->range, "token", "token-value pairs");
     if (!t.value) continue;
     if (t.info && t.info->output) {
-      store(*t.value, varying_output, t.value->range);
-    } else if (value(t.value.get()) && t.info && t.info->uniform) {
-      complain(Msg::kTokenUniform, t.value->range, t.info->name);
+      store(*t.value, output, t.value->range);
+      continue;
     }
+    unsigned input = value(t.value.get());
+    if (input && t.info && t.info->uniform) complain(Msg::kTokenUniform, t.value->range, t.info->name);
+    inputs |= input;
   }
+  return inputs;
 }
 
 // A function of the source, expanded here.
-bool ContextWalk::inlined(CallExpr& e) {
+unsigned ContextWalk::inlined(CallExpr& e) {
   const FunctionDef& f = *e.function;
-  if (open_functions_.contains(&f)) return false; // recursion: an error already
+  if (open_functions_.contains(&f)) return kUniform; // recursion: an error already
   if (++expansions_ > kMaxInlinedCalls && !here().calls.contains(&e)) {
     gave_up_ = true;
     report(diags_, Msg::kTooManyCalls, shader_.where, shader_.name, kMaxInlinedCalls);
-    return true;
+    return kVarying;
   }
   std::unique_ptr<Instance>& slot = here().calls[&e];
   if (!slot) slot = std::make_unique<Instance>();
@@ -485,7 +487,8 @@ bool ContextWalk::inlined(CallExpr& e) {
   for (size_t i = 0; i < e.args.size() && i < f.formals.size(); ++i) {
     const Variable& formal = *f.formals[i];
     Expr& arg = *e.args[i];
-    bool varying = value(&arg);
+    unsigned variation = value(&arg);
+    bool given_varying = formal.detail_given && formal.detail == Detail::kVarying;
     VarState* binding = &slot->variables[&formal];
     const auto* name = as<VariableExpr>(&arg);
     const auto* element = as<IndexExpr>(&arg);
@@ -493,17 +496,14 @@ bool ContextWalk::inlined(CallExpr& e) {
     if (formal.output && actual) {
       if (actual->kind == VariableKind::kGlobal) check_global(*actual, true, arg.range);
       binding = &state(*actual);
-      if (actual->kind == VariableKind::kGlobal) binding->varying = actual->detail == Detail::kVarying;
-      if (element && varying) store_variable(*binding, true, arg.range, actual->name);
-      if (formal.detail_given && formal.detail == Detail::kVarying)
-        store_variable(*binding, true, arg.range, actual->name);
+      if (element && variation) store_variable(*binding, variation, arg.range, actual->name);
+      if (given_varying) store_variable(*binding, kVarying, arg.range, actual->name);
     } else {
       binding->declared = &formal;
-      bool given_varying = formal.detail_given && formal.detail == Detail::kVarying;
-      if (varying && declared_uniform(formal))
+      if (variation == kVarying && declared_uniform(formal))
         complain(Msg::kNeedsUniform, arg.range, formal.name, f.name);
-      else if (varying || given_varying)
-        mark(binding->varying);
+      else
+        mark(binding->variation, given_varying ? kVarying : variation);
     }
     bindings.push_back({&formal, binding});
   }
@@ -516,7 +516,7 @@ bool ContextWalk::inlined(CallExpr& e) {
   open_functions_.erase(&f);
   bound_ = std::move(outer_bound);
   frame_ = std::move(outer);
-  return slot->result_varying && !f.result_uniform;
+  return slot->result;
 }
 
 } // namespace
