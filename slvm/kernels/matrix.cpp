@@ -106,8 +106,8 @@ inline Mat4 diagonal_m(Float x) {
   return make_matrix([&](int i, int j) HWY_ATTR { return i == j ? x : Float(0.0f); });
 }
 /// Raw, for its sixteen arguments.
-inline void sixteen_m(const Operand* operands, uint32_t, size_t lanes, const KernelContext&) {
-  for (size_t lane = 0; lane < lanes; lane += kWidth) {
+inline void sixteen_m(const Operand* operands, uint32_t, size_t lanes, const KernelContext& context) {
+  for (size_t lane = context.begin; lane < lanes; lane += kWidth) {
     Mat4 r;
     for (size_t i = 0; i < 16; ++i)
       r.m[i / 4][i % 4] = loaded<Float>(operands[1 + i], lane);

@@ -28,7 +28,7 @@ HWY_INLINE void draw(const Operand& result, const Operand* counter, size_t lanes
                      const KernelContext& context) {
   auto seed = static_cast<uint32_t>(context.seed), high = static_cast<uint32_t>(context.seed >> 32);
   Bits next_points = hn::Iota(BitsTag(), 1);
-  for (size_t lane = 0; lane < lanes; lane += kWidth) {
+  for (size_t lane = context.begin; lane < lanes; lane += kWidth) {
     Bits hash(seed);
     if constexpr (kDraw == Draw::kPerPoint)
       hash = hash + next_points + Bits(context.first_point + static_cast<uint32_t>(lane));

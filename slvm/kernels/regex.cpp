@@ -9,9 +9,9 @@
 namespace slvm {
 namespace {
 
-constexpr size_t kMaxSubject = 4096;
+constexpr size_t kMaxSubject = 1024;
 /// Greatest length of a pattern once its counted repetitions {n,m} are written out.
-constexpr size_t kMaxExpanded = 2048;
+constexpr size_t kMaxExpanded = 1024;
 
 /// An upper bound of that length: counts multiply as if they were nested.
 size_t expanded_length(std::string_view pattern) {

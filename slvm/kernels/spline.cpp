@@ -86,8 +86,8 @@ template <size_t kComponents> struct Spline {
     return r;
   }
 
-  void run(const Operand& result, const Operand& x, size_t lanes) const {
-    for (size_t lane = 0; lane < lanes; lane += kWidth) {
+  void run(const Operand& result, const Operand& x, size_t begin, size_t lanes) const {
+    for (size_t lane = begin; lane < lanes; lane += kWidth) {
       Float along = loaded<Float>(x, lane);
       Point r = basis.solve ? solved(along, lane) : at(along, lane);
       for (size_t c = 0; c < kComponents; ++c)
@@ -96,20 +96,21 @@ template <size_t kComponents> struct Spline {
   }
 };
 
-inline void spline_f(const Operand* o, uint32_t count, size_t lanes, const KernelContext&) {
-  Spline<1>{kCatmullRom, {o + 2, count - 2}}.run(o[0], o[1], lanes);
+inline void spline_f(const Operand* o, uint32_t count, size_t lanes, const KernelContext& context) {
+  Spline<1>{kCatmullRom, {o + 2, count - 2}}.run(o[0], o[1], context.begin, lanes);
 }
-inline void spline_v(const Operand* o, uint32_t count, size_t lanes, const KernelContext&) {
-  Spline<3>{kCatmullRom, {o + 2, count - 2}}.run(o[0], o[1], lanes);
+inline void spline_v(const Operand* o, uint32_t count, size_t lanes, const KernelContext& context) {
+  Spline<3>{kCatmullRom, {o + 2, count - 2}}.run(o[0], o[1], context.begin, lanes);
 }
 inline void basisspline_f(const Operand* o, uint32_t count, size_t lanes, const KernelContext& context) {
-  Spline<1>{spline_basis(string_operand(o[1], context)), {o + 3, count - 3}}.run(o[0], o[2], lanes);
+  Spline<1>{spline_basis(string_operand(o[1], context)), {o + 3, count - 3}}.run(o[0], o[2], context.begin,
+                                                                                 lanes);
 }
 /// Triples have no inverse: "solve" is ignored.
 inline void basisspline_v(const Operand* o, uint32_t count, size_t lanes, const KernelContext& context) {
   SplineBasis basis = spline_basis(string_operand(o[1], context));
   basis.solve = false;
-  Spline<3>{basis, {o + 3, count - 3}}.run(o[0], o[2], lanes);
+  Spline<3>{basis, {o + 3, count - 3}}.run(o[0], o[2], context.begin, lanes);
 }
 
 #define SL_FAMILY fill_spline

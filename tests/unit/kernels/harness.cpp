@@ -162,7 +162,7 @@ std::vector<Value> call(const KernelTable& table, ShadeopId row, const Arguments
                 (read[i].operand.step == 1 || arguments.lanes == kMaxLanes);
     if (options.in_place && fits && operands[0].data == stored[0].operand.data) operands[0] = read[i].operand;
   }
-  KernelContext context{&strings, options.seed, options.first_point};
+  KernelContext context{&strings, options.seed, options.first_point, options.begin};
   table[row](operands.data(), static_cast<uint32_t>(operands.size()), arguments.lanes, context);
   std::vector<Value> results;
   for (size_t i = 0; i < types.size(); ++i)

@@ -61,6 +61,7 @@ struct CallOptions {
   bool in_place = false;
   uint64_t seed = 1;
   uint32_t first_point = 0;
+  size_t begin = 0; ///< lanes before it are not asked for
 };
 
 /// The stored values.

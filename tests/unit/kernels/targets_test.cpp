@@ -143,6 +143,20 @@ TEST_P(EveryTarget, LanesDoNotDependOnTheirNumberOrPlace) {
   }
 }
 
+TEST_P(EveryTarget, MayLeaveOutTheFirstLanes) {
+  for (ShadeopId row : kernel_rows()) {
+    Bench bench;
+    Arguments arguments = make_arguments(row, 64, Values::kModerate, bench.random, bench.strings);
+    std::vector<Value> whole = call(table, row, arguments, bench.strings);
+    std::vector<Value> rest = call(table, row, arguments, bench.strings, {.begin = 32});
+    for (std::vector<Value>* results : {&whole, &rest})
+      for (Value& v : *results)
+        v.bits.erase(v.bits.begin(), v.bits.begin() + 32);
+    expect_same(rest, whole, 0, row_name(row));
+    if (HasFatalFailure()) return;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, EveryTarget,
                          testing::ValuesIn(kernel_targets().begin(), kernel_targets().end()),
                          [](const auto& target) { return std::string(target.param); });
