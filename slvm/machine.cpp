@@ -19,8 +19,8 @@ Instance::Instance() = default;
 Instance::~Instance() = default;
 
 Machine::Machine(MachineOptions options) : options_(std::move(options)) {
-  options_.strip_points =
-      std::max<uint32_t>((options_.strip_points + kMaxLanes - 1) / kMaxLanes * kMaxLanes, kMaxLanes);
+  const size_t vectors = std::max<size_t>((options_.strip_points + kMaxLanes - 1) / kMaxLanes, 1);
+  options_.strip_points = static_cast<uint32_t>(vectors * kMaxLanes);
   kernels_ = options_.target.empty() ? nullptr : find_kernel_table(options_.target);
   if (!kernels_) kernels_ = &kernel_table();
   evaluator_ = make_kernel_evaluator(options_.target);
