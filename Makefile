@@ -50,7 +50,7 @@ docs:
 
 format:
 	@.ci/install-deps clang-format
-	@git ls-files '*.cpp' '*.h' | xargs clang-format -i
+	@git ls-files '*.cpp' '*.h' | grep -Ev '^(tests/(diagnostics|language|tools)|stdlib|shaders)/.*\.h$$' | xargs clang-format -i
 
 tidy:
 	@.ci/install-deps clang-tidy

@@ -10,8 +10,8 @@
 // The arithmetic is not contracted: results are the same bits on every target. Coordinates beyond 2^30,
 // infinite or NaN count as 0.
 //
-// This header is compiled once per SIMD target, for the kernels of noise.cpp and for whoever needs noise inside a loop
-// of wide values of his own.
+// This header is compiled once per SIMD target, for the kernels of noise.cpp and for whoever needs noise
+// inside a loop of wide values of his own.
 #if defined(SLVM_KERNELS_GRADIENT_NOISE_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SLVM_KERNELS_GRADIENT_NOISE_H_
 #undef SLVM_KERNELS_GRADIENT_NOISE_H_

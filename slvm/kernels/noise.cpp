@@ -1,5 +1,5 @@
-// The noise functions (RISpec 3.2, 15.1): gradient noise in one to four dimensions, free or periodic, and cell noise.
-// What noise is made of: gradient_noise.h.
+// The noise functions (RISpec 3.2, 15.1): gradient noise in one to four dimensions, free or periodic, and
+// cell noise. What noise is made of: gradient_noise.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "slvm/kernels/noise.cpp"
 #include <hwy/foreach_target.h>

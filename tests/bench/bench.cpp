@@ -1,6 +1,6 @@
-// What running shaders costs: each benchmark shader on a grid by the virtual machine and by a hand-written loop
-// (by_hand.cpp), as nanoseconds per point and their ratio, taken in one run; first their results are compared.
-// Also compiling and binding. Usage: anemone_bench [--benchmark_...]
+// What running shaders costs: each benchmark shader on a grid by the virtual machine and by a hand-written
+// loop (by_hand.cpp), as nanoseconds per point and their ratio, taken in one run; first their results are
+// compared. Also compiling and binding. Usage: anemone_bench [--benchmark_...]
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
@@ -27,8 +27,12 @@ class LitScene : public slvm::RendererServices {
 public:
   std::vector<const slvm::Instance*> list;
 
-  bool space_to_current(const slvm::ShadingState&, std::string_view, slvm::Matrix4&) override { return false; }
-  bool current_to_space(const slvm::ShadingState&, std::string_view, slvm::Matrix4&) override { return false; }
+  bool space_to_current(const slvm::ShadingState&, std::string_view, slvm::Matrix4&) override {
+    return false;
+  }
+  bool current_to_space(const slvm::ShadingState&, std::string_view, slvm::Matrix4&) override {
+    return false;
+  }
   std::span<const slvm::Instance* const> lights(const slvm::ShadingState&) override { return list; }
   bool attribute(const slvm::ShadingState&, std::string_view, slvm::Value&) override { return false; }
   bool option(const slvm::ShadingState&, std::string_view, slvm::Value&) override { return false; }
@@ -49,7 +53,8 @@ std::string read_text(const std::string& path) {
   return text.str();
 }
 
-std::vector<slc::CompiledShader> compile(const slc::Compiler& compiler, const std::string& name, const std::string& text) {
+std::vector<slc::CompiledShader> compile(const slc::Compiler& compiler, const std::string& name,
+                                         const std::string& text) {
   static const auto kEvaluator = slvm::make_kernel_evaluator();
   slvm::SourceManager sources;
   slvm::Diagnostics diagnostics;
@@ -81,12 +86,15 @@ public:
         n[c * pitch + k] = ng[c * pitch + k] = normal[c];
       }
     }
-    for (size_t c = 0; c < 3; ++c) by_hand[c].resize(pitch + 16);
+    for (size_t c = 0; c < 3; ++c)
+      by_hand[c].resize(pitch + 16);
     point_light = light("pointlight", {number("intensity", 20), point("from", {2, 3, 1})});
-    distant_light = light("distantlight", {number("intensity", 0.6f), point("from", {0, 0, 0}), point("to", {1, -1, 2})});
+    distant_light =
+        light("distantlight", {number("intensity", 0.6f), point("from", {0, 0, 0}), point("to", {1, -1, 2})});
   }
 
-  std::unique_ptr<slvm::Instance> instance(const std::string& path, std::vector<slvm::ParamValue> values = {}) {
+  std::unique_ptr<slvm::Instance> instance(const std::string& path,
+                                           std::vector<slvm::ParamValue> values = {}) {
     auto shaders = compile(compiler, path, read_text(path));
     auto shader = machine.load(slvm::write_slo(shaders[0].program));
     if (!shader) fail(shader.error());
@@ -120,8 +128,12 @@ public:
   bench::Lights lights{{2, 3, 1}, 20, {1, -1, 2}, 0.6f};
 
 private:
-  static slvm::ParamValue number(const char* name, float x) { return {name, {slvm::Type::kFloat, 0, {x}, {}}}; }
-  static slvm::ParamValue point(const char* name, std::vector<float> x) { return {name, {slvm::Type::kPoint, 0, std::move(x), {}}}; }
+  static slvm::ParamValue number(const char* name, float x) {
+    return {name, {slvm::Type::kFloat, 0, {x}, {}}};
+  }
+  static slvm::ParamValue point(const char* name, std::vector<float> x) {
+    return {name, {slvm::Type::kPoint, 0, std::move(x), {}}};
+  }
   std::unique_ptr<slvm::Instance> light(const std::string& name, std::vector<slvm::ParamValue> values) {
     return instance(fmt::format("{}/shaders/standard/{}.sl", SOURCE_FOLDER, name), std::move(values));
   }
@@ -180,12 +192,13 @@ void print_table(const std::vector<Case>& cases, const Collector& times, const c
     auto vm = times.seconds.find("vm/" + c.name), hand = times.seconds.find("by_hand/" + c.name);
     if (vm == times.seconds.end() || hand == times.seconds.end()) continue;
     constexpr double kPoints = kSide * kSide;
-    fmt::print("{:<12} {:>14.2f} {:>14.2f} {:>8.2f}\n", c.name, vm->second * 1e9 / kPoints, hand->second * 1e9 / kPoints,
-               vm->second / hand->second);
+    fmt::print("{:<12} {:>14.2f} {:>14.2f} {:>8.2f}\n", c.name, vm->second * 1e9 / kPoints,
+               hand->second * 1e9 / kPoints, vm->second / hand->second);
   }
   fmt::print("\n");
   for (auto& [name, seconds] : times.seconds)
-    if (!name.starts_with("vm/") && !name.starts_with("by_hand/")) fmt::print("{:<40} {:>10.3f} ms\n", name, seconds * 1e3);
+    if (!name.starts_with("vm/") && !name.starts_with("by_hand/"))
+      fmt::print("{:<40} {:>10.3f} ms\n", name, seconds * 1e3);
 }
 
 void register_benchmarks(Setup& setup, std::vector<Case>& cases) {
@@ -193,7 +206,8 @@ void register_benchmarks(Setup& setup, std::vector<Case>& cases) {
     benchmark::RegisterBenchmark(("vm/" + c.name).c_str(), [&setup, &c](benchmark::State& state) {
       setup.scene.list.clear();
       if (c.lit) setup.scene.list = {setup.point_light.get(), setup.distant_light.get()};
-      for (auto _ : state) shade(setup, c);
+      for (auto _ : state)
+        shade(setup, c);
     });
     benchmark::RegisterBenchmark(("by_hand/" + c.name).c_str(), [&setup, &c](benchmark::State& state) {
       bench::Points points = setup.points();
@@ -205,16 +219,19 @@ void register_benchmarks(Setup& setup, std::vector<Case>& cases) {
   }
   std::string text = read_text(SOURCE_FOLDER "/tests/bench/shaders/hundred_lines.sl");
   benchmark::RegisterBenchmark("compile 100 lines", [&setup, text](benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(compile(setup.compiler, "hundred_lines.sl", text));
+    for (auto _ : state)
+      benchmark::DoNotOptimize(compile(setup.compiler, "hundred_lines.sl", text));
   });
   auto shaders = compile(setup.compiler, "hundred_lines.sl", text);
   auto slo = slvm::write_slo(shaders[0].program);
   benchmark::RegisterBenchmark("load 100 lines", [&setup, slo](benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(setup.machine.load(slo));
+    for (auto _ : state)
+      benchmark::DoNotOptimize(setup.machine.load(slo));
   });
   auto shader = *setup.machine.load(slo);
   benchmark::RegisterBenchmark("bind 100 lines", [&setup, shader](benchmark::State& state) {
-    for (auto _ : state) benchmark::DoNotOptimize(setup.machine.instantiate(shader, {}));
+    for (auto _ : state)
+      benchmark::DoNotOptimize(setup.machine.instantiate(shader, {}));
   });
 }
 
@@ -229,8 +246,10 @@ int main(int argc, char** argv) {
       {"plastic", SOURCE_FOLDER "/shaders/standard/plastic.sl", true,
        [](Setup& s, const bench::Points& p) { bench::plastic_by_hand(p, s.lights); }, nullptr},
       {"fbm", own + "fbm.sl", false, [](Setup&, const bench::Points& p) { bench::fbm_by_hand(p); }, nullptr},
-      {"marble", own + "marble.sl", false, [](Setup&, const bench::Points& p) { bench::marble_by_hand(p); }, nullptr},
-      {"divergent", own + "divergent.sl", false, [](Setup&, const bench::Points& p) { bench::divergent_by_hand(p); }, nullptr}};
+      {"marble", own + "marble.sl", false, [](Setup&, const bench::Points& p) { bench::marble_by_hand(p); },
+       nullptr},
+      {"divergent", own + "divergent.sl", false,
+       [](Setup&, const bench::Points& p) { bench::divergent_by_hand(p); }, nullptr}};
   for (Case& c : cases) {
     c.surface = setup.instance(c.path);
     setup.scene.list.clear();

@@ -15,7 +15,9 @@ namespace HWY_NAMESPACE {
 
 using namespace slvm::HWY_NAMESPACE;
 
-HWY_INLINE Float load(const float* plane, size_t at) { return hn::Load(FloatTag(), plane + at); }
+HWY_INLINE Float load(const float* plane, size_t at) {
+  return hn::Load(FloatTag(), plane + at);
+}
 HWY_INLINE Vec3 load(const float* const (&planes)[3], size_t at) {
   return {load(planes[0], at), load(planes[1], at), load(planes[2], at)};
 }
@@ -24,9 +26,13 @@ HWY_INLINE void store(const Points& points, size_t at, Vec3 colour) {
   hn::Store(colour.y.v, FloatTag(), points.ci[1] + at);
   hn::Store(colour.z.v, FloatTag(), points.ci[2] + at);
 }
-HWY_INLINE Vec3 triple(const float (&x)[3]) { return {Float(x[0]), Float(x[1]), Float(x[2])}; }
+HWY_INLINE Vec3 triple(const float (&x)[3]) {
+  return {Float(x[0]), Float(x[1]), Float(x[2])};
+}
 
-HWY_INLINE Float noise(Vec3 p) { return float_noise({coordinate<0>(p.x), coordinate<1>(p.y), coordinate<2>(p.z)}); }
+HWY_INLINE Float noise(Vec3 p) {
+  return float_noise({coordinate<0>(p.x), coordinate<1>(p.y), coordinate<2>(p.z)});
+}
 
 // ---- plastic: diffuse and specular in one loop over the lights.
 struct Lit {
@@ -121,7 +127,8 @@ HWY_FLATTEN void divergent(const Points& points) {
     Float s = load(points.s, at), t = load(points.t, at);
     Bool inner = noise(load(points.p, at) * 4.0f) > 0.5f;
     Float shade = rounds(inner, s, t) * (1.0f / 24);
-    if (!hn::AllTrue(FloatTag(), inner.m)) shade = select(inner, shade, 0.5f + 0.5f * sin(20.0f * s) * cos(20.0f * t));
+    if (!hn::AllTrue(FloatTag(), inner.m))
+      shade = select(inner, shade, 0.5f + 0.5f * sin(20.0f * s) * cos(20.0f * t));
     store(points, at, {shade, shade * shade, 1.0f - shade});
   }
 }
@@ -138,10 +145,18 @@ HWY_EXPORT(fbm);
 HWY_EXPORT(marble);
 HWY_EXPORT(divergent);
 
-void plastic_by_hand(const Points& points, const Lights& lights) { HWY_DYNAMIC_DISPATCH(plastic)(points, lights); }
-void fbm_by_hand(const Points& points) { HWY_DYNAMIC_DISPATCH(fbm)(points); }
-void marble_by_hand(const Points& points) { HWY_DYNAMIC_DISPATCH(marble)(points); }
-void divergent_by_hand(const Points& points) { HWY_DYNAMIC_DISPATCH(divergent)(points); }
+void plastic_by_hand(const Points& points, const Lights& lights) {
+  HWY_DYNAMIC_DISPATCH(plastic)(points, lights);
+}
+void fbm_by_hand(const Points& points) {
+  HWY_DYNAMIC_DISPATCH(fbm)(points);
+}
+void marble_by_hand(const Points& points) {
+  HWY_DYNAMIC_DISPATCH(marble)(points);
+}
+void divergent_by_hand(const Points& points) {
+  HWY_DYNAMIC_DISPATCH(divergent)(points);
+}
 
 } // namespace bench
 #endif

@@ -1,5 +1,6 @@
-// The benchmark shaders as somebody would write them by hand for one renderer: one fused loop over vectors of points
-// in Highway, intermediate values in registers, the same formulas and the same noise as the virtual machine's.
+// The benchmark shaders as somebody would write them by hand for one renderer: one fused loop over vectors of
+// points in Highway, intermediate values in registers, the same formulas and the same noise as the virtual
+// machine's.
 #pragma once
 
 #include <cstddef>
