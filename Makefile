@@ -25,7 +25,7 @@ build:
 	$(call build,release)
 
 demo:
-	$(call build,release)
+	$(call build,release,tools)
 	@.ci/demo build/release
 
 test:
@@ -60,7 +60,7 @@ tidy:
 
 PREFIX ?= /usr/local
 install:
-	$(call build,release)
+	$(call build,release,tools)
 	@cmake --install build/release --prefix $(PREFIX) >/dev/null
 	@echo "Installed to $(PREFIX)"
 

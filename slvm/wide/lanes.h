@@ -25,54 +25,61 @@ namespace slvm {
 namespace HWY_NAMESPACE {
 
 // ---- One vector's worth of a value, loaded from lane `lane` on or stored there. `first` is its first plane.
-/// Lane of a plane to load for lane `lane` of the call. Uniform operands (step 0) repeat their kMaxLanes
-/// equal values; a uniform call may store over them, so each vector reads the copies that only itself
-/// replaces.
-HWY_INLINE size_t load_offset(const Operand& o, size_t lane) {
-  return lane & ((kMaxLanes - 1) | (size_t{0} - o.step));
+/// An operand ready for the loop over lanes.
+struct Lanes {
+  float* data;
+  size_t pitch;
+  /// Ands a lane of the call into the lane of the plane to load. Uniform operands (step 0) repeat their kMaxLanes
+  /// equal values; a uniform call may store over them, so each vector reads the copies that only itself replaces.
+  size_t wrap;
+
+  HWY_INLINE Lanes(const Operand& o)
+      : data(o.data), pitch(o.pitch), wrap((kMaxLanes - 1) | (size_t{0} - o.step)) {}
+  HWY_INLINE float* plane(size_t i) const { return data + i * pitch; }
+};
+
+HWY_INLINE hn::Vec<FloatTag> load_plane(const Lanes& o, size_t plane, size_t lane) {
+  return hn::Load(FloatTag(), o.plane(plane) + (lane & o.wrap));
 }
-HWY_INLINE hn::Vec<FloatTag> load_plane(const Operand& o, size_t plane, size_t lane) {
-  return hn::Load(FloatTag(), o.plane(plane) + load_offset(o, lane));
-}
-HWY_INLINE void load(const Operand& o, size_t lane, Float& value, size_t first = 0) {
+HWY_INLINE void load(const Lanes& o, size_t lane, Float& value, size_t first = 0) {
   value.v = load_plane(o, first, lane);
 }
-HWY_INLINE void load(const Operand& o, size_t lane, Bool& value) {
+HWY_INLINE void load(const Lanes& o, size_t lane, Bool& value) {
   value.m = hn::MaskFromVec(load_plane(o, 0, lane));
 }
-HWY_INLINE void load(const Operand& o, size_t lane, Bits& value) {
+HWY_INLINE void load(const Lanes& o, size_t lane, Bits& value) {
   value.v = hn::BitCast(BitsTag(), load_plane(o, 0, lane));
 }
-HWY_INLINE void load(const Operand& o, size_t lane, Vec3& value, size_t first = 0) {
+HWY_INLINE void load(const Lanes& o, size_t lane, Vec3& value, size_t first = 0) {
   load(o, lane, value.x, first);
   load(o, lane, value.y, first + 1);
   load(o, lane, value.z, first + 2);
 }
-HWY_INLINE void load(const Operand& o, size_t lane, Mat4& value) {
+HWY_INLINE void load(const Lanes& o, size_t lane, Mat4& value) {
   for (size_t i = 0; i < 16; ++i)
     load(o, lane, value.m[i / 4][i % 4], i);
 }
 
-HWY_INLINE void store(const Operand& o, size_t lane, Float value, size_t first = 0) {
+HWY_INLINE void store(const Lanes& o, size_t lane, Float value, size_t first = 0) {
   hn::Store(value.v, FloatTag(), o.plane(first) + lane);
 }
-HWY_INLINE void store(const Operand& o, size_t lane, Bool value) {
+HWY_INLINE void store(const Lanes& o, size_t lane, Bool value) {
   hn::Store(hn::VecFromMask(FloatTag(), value.m), FloatTag(), o.data + lane);
 }
-HWY_INLINE void store(const Operand& o, size_t lane, Bits value) {
+HWY_INLINE void store(const Lanes& o, size_t lane, Bits value) {
   store(o, lane, float_of_bits(value));
 }
-HWY_INLINE void store(const Operand& o, size_t lane, Vec3 value) {
+HWY_INLINE void store(const Lanes& o, size_t lane, Vec3 value) {
   store(o, lane, value.x, 0);
   store(o, lane, value.y, 1);
   store(o, lane, value.z, 2);
 }
-HWY_INLINE void store(const Operand& o, size_t lane, const Mat4& value) {
+HWY_INLINE void store(const Lanes& o, size_t lane, const Mat4& value) {
   for (size_t i = 0; i < 16; ++i)
     store(o, lane, value.m[i / 4][i % 4], i);
 }
 
-template <class T> HWY_INLINE T loaded(const Operand& o, size_t lane) {
+template <class T> HWY_INLINE T loaded(const Lanes& o, size_t lane) {
   T value;
   load(o, lane, value);
   return value;
@@ -100,6 +107,8 @@ template <class R, class... A> struct Shape<R(A...)> {
     return at;
   }
 
+  template <size_t I> static constexpr size_t kOperandOf = operand_of(I);
+
   /// Calls visit.template operator()<T>(operand number) for the result and each parameter.
   template <class Visitor> static constexpr void visit_types(Visitor& visit) {
     if constexpr (kHasResult) visit.template operator()<R>(0);
@@ -108,38 +117,39 @@ template <class R, class... A> struct Shape<R(A...)> {
   }
 
   /// What a parameter starts as: the loaded operand, or nothing for an output.
-  template <class P> static HWY_INLINE std::remove_cvref_t<P> argument(const Operand& o, size_t lane) {
+  template <class P> static HWY_INLINE std::remove_cvref_t<P> argument(const Lanes& o, size_t lane) {
     if constexpr (kIsOutput<P>)
       return {};
     else
       return loaded<std::remove_cvref_t<P>>(o, lane);
   }
   template <class P>
-  static HWY_INLINE void put_output(const Operand& o, size_t lane, const std::remove_cvref_t<P>& v) {
+  static HWY_INLINE void put_output(const Lanes& o, size_t lane, const std::remove_cvref_t<P>& v) {
     if constexpr (kIsOutput<P>) store(o, lane, v);
   }
 
   template <auto kFunction, size_t... I>
-  static HWY_INLINE void call(const Operand* o, size_t lane, std::index_sequence<I...>,
+  static HWY_INLINE void call(const Lanes* o, size_t lane, std::index_sequence<I...>,
                               std::remove_cvref_t<A>... arguments) {
     if constexpr (kHasResult)
       store(o[0], lane, kFunction(arguments...));
     else
       kFunction(arguments...);
-    (put_output<A>(o[operand_of(I)], lane, arguments), ...);
+    (put_output<A>(o[kOperandOf<I>], lane, arguments), ...);
   }
-  // The operands are copied: vector stores may alias anything, and would have them read again for each vector.
-  template <auto kFunction, size_t... I>
-  static HWY_INLINE void strip(const Operand* operands, size_t begin, size_t end, std::index_sequence<I...> indexes) {
-    constexpr size_t kCount = sizeof...(A) + kHasResult;
-    Operand o[kCount];
-    std::copy_n(operands, kCount, o);
+  // Lanes are a copy of the operands: vector stores may alias anything, and would have them read again for each
+  // vector. Made member by member, it stays in registers.
+  template <auto kFunction, size_t... O, size_t... I>
+  static HWY_INLINE void strip(const Operand* operands, size_t begin, size_t end, std::index_sequence<O...>,
+                               std::index_sequence<I...> parameters) {
+    const Lanes o[] = {Lanes(operands[O])...};
     for (size_t lane = begin; lane < end; lane += kWidth)
-      call<kFunction>(o, lane, indexes, argument<A>(o[operand_of(I)], lane)...);
+      call<kFunction>(o, lane, parameters, argument<A>(o[kOperandOf<I>], lane)...);
   }
   template <auto kFunction>
   static HWY_FLATTEN void run(const Operand* operands, uint32_t, size_t lanes, const KernelContext& context) {
-    strip<kFunction>(operands, context.begin, lanes, std::index_sequence_for<A...>());
+    strip<kFunction>(operands, context.begin, lanes, std::make_index_sequence<kOperands>(),
+                     std::index_sequence_for<A...>());
   }
 };
 
