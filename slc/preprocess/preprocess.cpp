@@ -290,8 +290,10 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
   }
   template <class Context, class Exception> void throw_exception(const Context&, const Exception& e) {
     if (std::exchange(reported, false)) return;
-    if (goes_on(e)) state->report_exception(e);
-    else boost::throw_exception(e);
+    if (goes_on(e))
+      state->report_exception(e);
+    else
+      boost::throw_exception(e);
   }
 
 private:

@@ -17,8 +17,8 @@
 namespace slc {
 namespace {
 
-// How much a value varies, as bits to be or-ed. kSomewhere: only because a declared uniform was set at some points and
-// not at others; what is declared uniform may take that, and varies likewise. kVarying: by itself.
+// How much a value varies, as bits to be or-ed. kSomewhere: only because a declared uniform was set at some
+// points and not at others; what is declared uniform may take that, and varies likewise. kVarying: by itself.
 enum Variation : unsigned { kUniform = 0, kSomewhere = 1, kVarying = 3 };
 
 // A variable in one expansion of the function it belongs to.
@@ -107,7 +107,9 @@ private:
 
   VarState& state(const Variable& v);
   void mark(bool& flag) { changed_ |= !std::exchange(flag, true); }
-  void mark(unsigned& variation, unsigned more) { changed_ |= std::exchange(variation, variation | more) != variation; }
+  void mark(unsigned& variation, unsigned more) {
+    changed_ |= std::exchange(variation, variation | more) != variation;
+  }
   int control() const { return hard_ + soft_; }
   Instance& here() { return *frame_.instance; }
   void check_global(const Variable& v, bool store, SourceRange where);

@@ -29,7 +29,9 @@ struct ShadingContext::Impl {
   }
 
   const ShaderRun*& known(Role role) {
-    return role == kDisplacement ? state.displacement : role == kAtmosphere ? state.atmosphere : state.surface;
+    return role == kDisplacement ? state.displacement
+           : role == kAtmosphere ? state.atmosphere
+                                 : state.surface;
   }
 
   /// Parameters of a shader that has not run have their initial values, should `asking` want them.

@@ -117,18 +117,13 @@ void ShaderRun::array_store(const Frame& f, const MaskStack& m, uint32_t pc, std
            subscript_error(subscript.data[subscript.step * bad_lane], array.elements), bad);
 }
 
+// Calls that execute_code() does not make itself.
 void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<const uint32_t> words) {
   const Instance::Bound::Import& target = bound.imports[import];
   if (target.kernel) {
-    const Operand* operands =
-        f.resolved ? f.resolved + (words.data() - program.code.data()) : operands_.data();
-    if (!f.resolved)
-      for (size_t i = 0; i < words.size(); ++i)
-        operands_[i] = operand(f, words[i]);
-    KernelContext context{&state.machine.strings(), state.grid->id, static_cast<uint32_t>(f.first), f.begin};
-    size_t end = f.end;
-    if (operands[0].step == 0) context.begin = 0, end = kMaxLanes; // a uniform call
-    target.kernel(operands, static_cast<uint32_t>(words.size()), end, context);
+    for (size_t i = 0; i < words.size(); ++i)
+      operands_[i] = operand(f, words[i]);
+    call_kernel(f, target.kernel, operands_.data(), static_cast<uint32_t>(words.size()));
     return;
   }
   const ShadeopInfo& info = shadeop(program.imports[import]);
@@ -158,7 +153,8 @@ void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32
     for (auto word = from; word != to; ++word)
       resolved_[*word] = operand(f, program.code[*word]);
     f.resolved = resolved_.data();
-    f.begin = 0;
+    f.context.begin = 0;
+    f.context.first_point = static_cast<uint32_t>(first);
     f.end = f.lanes;
     narrow(f, strip_mask_);
     execute_code(f, strip_mask_, body);
@@ -169,13 +165,13 @@ void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32
 // left out.
 void ShaderRun::narrow(Frame& f, const MaskStack& m) {
   if (!f.may_narrow) return;
-  f.begin = 0;
+  f.context.begin = 0;
   f.end = f.lanes;
   if (m.all() || !m.any()) return;
   size_t i = 0;
   while (!m.current()[i])
     ++i;
-  f.begin =
+  f.context.begin =
       (i * kMaskWordLanes + static_cast<size_t>(std::countr_zero(m.current()[i]))) / kMaxLanes * kMaxLanes;
   i = m.words() - 1;
   while (!m.current()[i])
@@ -187,6 +183,7 @@ void ShaderRun::narrow(Frame& f, const MaskStack& m) {
 
 void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
   const uint32_t* code = program.code.data();
+  const Instance::Bound::Import* imports = bound.imports.data();
   for (;;) {
     uint32_t at = pc;
     uint16_t opcode = instruction_opcode(code[at]);
@@ -194,7 +191,11 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
     const uint32_t* w = code + at + 1;
     pc += 1 + count;
     if (opcode >= kFirstShadeop) {
-      call(f, at, static_cast<uint16_t>(opcode - kFirstShadeop), {w, count});
+      Kernel kernel = imports[opcode - kFirstShadeop].kernel;
+      if (kernel && f.resolved)
+        call_kernel(f, kernel, f.resolved + (w - code), count);
+      else
+        call(f, at, static_cast<uint16_t>(opcode - kFirstShadeop), {w, count});
       continue;
     }
     switch (static_cast<Opcode>(opcode)) {

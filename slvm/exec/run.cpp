@@ -53,6 +53,7 @@ void ShaderRun::bind_registers() {
   frame_.step[2] = frame_.step[3] = 1;
   frame_.lanes = frame_.end = pitch;
   frame_.active = points;
+  frame_.context = {&state.machine.strings(), state.grid->id};
   operands_.resize(bound.most_operands);
 }
 

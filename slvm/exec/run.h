@@ -34,9 +34,10 @@ struct Frame {
   size_t active = 0; ///< lanes that are points; the rest is padding
   /// In strips: operands by word of code, found before the block runs. Null at grid level.
   const Operand* resolved = nullptr;
-  /// The lanes worth computing: all active ones are among [begin, end).
-  size_t begin = 0, end = 0;
   bool may_narrow = false; ///< false where derivatives read lanes that are off
+  /// The lanes worth computing: all active ones are among [context.begin, end).
+  size_t end = 0;
+  KernelContext context;
 };
 
 class ShaderRun {
@@ -108,6 +109,15 @@ private:
   void first_active(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words);
   void array_load(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
   void array_store(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
+  void call_kernel(const Frame& frame, Kernel kernel, const Operand* operands, uint32_t count) const {
+    if (operands->step) {
+      kernel(operands, count, frame.end, frame.context);
+    } else { // a uniform call
+      KernelContext context = frame.context;
+      context.begin = 0;
+      kernel(operands, count, kMaxLanes, context);
+    }
+  }
   const MaskWord* condition(const Frame& frame, const uint32_t* word);
   static void narrow(Frame& frame, const MaskStack& mask);
   uint32_t next_light(MaskStack& mask, uint32_t body, uint32_t end);

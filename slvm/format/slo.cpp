@@ -256,8 +256,7 @@ Result<Program> read_slo(std::span<const std::byte> bytes) {
   std::memcpy(aligned.data(), payload.data(), payload.size());
   const auto* data = reinterpret_cast<const uint8_t*>(aligned.data());
   flatbuffers::Verifier verifier(data, payload.size(), 64, 50'000'000);
-  if (!verifier.VerifyBuffer<fb::Shader>(nullptr))
-    return Error{"damaged: the container is not well-formed"};
+  if (!verifier.VerifyBuffer<fb::Shader>(nullptr)) return Error{"damaged: the container is not well-formed"};
   const auto* root = flatbuffers::GetRoot<fb::Shader>(data);
   Program program;
   for (const fb::Import* i : *root->imports()) {

@@ -351,7 +351,8 @@ private:
         if (o.store) check_writable_array(at, o.word);
       } else {
         check_register(at, o.word, static_cast<uint32_t>(components(o.type)), o.store);
-        if (o.store && operand_space(o.word) == Space::kSlot) fail(at, "a call that stores to a variable");
+        if (o.store && operand_space(o.word) == Space::kSlot && info.kind != ShadeopKind::kKernel)
+          fail(at, "a call for whole grids that stores to a variable");
       }
       if (o.uniform) check_uniform(at, o.word);
       if (o.store) uniform_store |= !is_varying(at, o.word);
@@ -439,7 +440,8 @@ bool default_fits(const Param& param) {
   size_t count = param.elements ? param.elements : 1;
   size_t numbers = param.type == Type::kString ? 0 : count * static_cast<size_t>(components(param.type));
   size_t strings = param.type == Type::kString ? count : 0;
-  return v.type == param.type && v.elements == param.elements && v.numbers.size() == numbers && v.strings.size() == strings;
+  return v.type == param.type && v.elements == param.elements && v.numbers.size() == numbers &&
+         v.strings.size() == strings;
 }
 
 std::string verify_program(const Program& program) {

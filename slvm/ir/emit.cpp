@@ -26,6 +26,7 @@ void emit(const Module& m, Program& program) {
   program.arrays.clear();
   program.uniform_planes = program.strip_planes = program.grid_planes = 0;
   LowCode code = schedule(m, program);
+  coalesce(code);
   allocate(code, program);
   program.mask_depth = code.mask_depth;
   program.files = m.files;

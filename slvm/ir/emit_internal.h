@@ -1,5 +1,6 @@
 // Shared by the steps of emission: schedule.cpp makes a list of instructions on virtual registers (grid
-// level, strip blocks, masked copies at merges), allocate.cpp gives the registers planes, emit.cpp encodes.
+// level, strip blocks, masked copies at merges), coalesce.cpp saves copies, allocate.cpp gives the registers
+// planes, emit.cpp encodes.
 #pragma once
 
 #include "slvm/ir/ir.h"
@@ -20,14 +21,15 @@ struct LowOperand {
 
 struct LowInst {
   uint16_t opcode = 0;
-  uint32_t stores = 0; ///< how many operands, from `first_store` on, are stored to
+  uint32_t stores =
+      0; ///< how many operands, from `first_store` on, are stored to (registers, variables, arrays)
   uint32_t first_store = 0;
   std::vector<LowOperand> operands;
   SourceRange where;
   /// Registers that are live from here on though nothing is stored yet: results of a block, which lanes store
   /// to in different rounds of loops inside it.
   std::vector<uint32_t> begins;
-  bool removed = false; ///< a copy that allocation made superfluous
+  bool removed = false; ///< a copy that proved superfluous
 };
 
 /// A virtual register: `planes` consecutive planes.
@@ -51,6 +53,8 @@ struct LowCode {
 
 /// Fills imports, slots, constants, strings and arrays of the program on the way.
 LowCode schedule(const Module& m, Program& program);
+/// Computes results where copies would have brought them.
+void coalesce(LowCode& code);
 /// Gives every register a space and planes; sets the program's plane counts.
 void allocate(LowCode& code, Program& program);
 

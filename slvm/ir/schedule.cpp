@@ -3,7 +3,8 @@
 // At grid level, runs of instructions that need no whole grid are gathered into strip blocks; uniform
 // instructions go in front of the block being gathered (they depend on nothing in it); a barrier ends it.
 // Merges become registers: one for each result of an if, one shared by parameter and result of a loop,
-// written by masked copies where the branches and rounds end.
+// written by masked copies where the branches and rounds end; unmasked ones where no lane that is off keeps a
+// value that somebody reads.
 #include "slvm/ir/emit_internal.h"
 
 #include <algorithm>
@@ -29,6 +30,11 @@ public:
     locations_.assign(m.values.size(), target(0)); // a target: not located yet
     level_.assign(m.values.size(), 0);
     constant_words_.assign(m.constants.size(), ~0u);
+    used_.assign(m.values.size(), false);
+    lanes_off_matter_.assign(m.values.size(), true);
+    for (const Inst& inst : m.insts)
+      for (ValueId a : inst.args)
+        used_[a] = true;
   }
 
   LowCode run() {
@@ -43,6 +49,11 @@ public:
   }
 
 private:
+  struct Frame { // an open region, for the terminators inside
+    const Inst* inst;
+    std::vector<LowOperand> merge; // registers of results (loops: of carried values)
+  };
+
   // ---- What the program refers to.
 
   void prepare_externals() {
@@ -178,11 +189,13 @@ private:
     struct Move {
       LowOperand to, from;
       Type type;
+      bool masked;
     };
     std::vector<Move> moves;
     for (size_t i = 0; i < c.to.size(); ++i)
       if (m_.varying(c.results[i]) == varying && c.to[i] != use(c.from[i]))
-        moves.push_back({c.to[i], use(c.from[i]), m_.type(c.results[i])});
+        moves.push_back({c.to[i], use(c.from[i]), m_.type(c.results[i]),
+                         c.masked && varying && lanes_off_matter_[c.results[i]]});
     for (size_t i = 0; i < moves.size(); ++i)
       for (size_t j = 0; j < i; ++j) {
         if (moves[j].to != moves[i].from) continue;
@@ -192,7 +205,7 @@ private:
         break;
       }
     for (const Move& move : moves)
-      copy_one(move.to, move.from, move.type, c.masked && varying);
+      copy_one(move.to, move.from, move.type, move.masked);
   }
   void copy_one(LowOperand to, LowOperand from, Type t, bool masked) {
     add(make(code_of(masked ? Opcode::k_movm : Opcode::k_mov),
@@ -216,6 +229,19 @@ private:
     if (!some_uniform) return;
     flush();
     copy_now(c, false);
+  }
+
+  /// At a break: what nobody reads after the loop needs no copy.
+  void merge_used(const Frame& loop, const std::vector<ValueId>& args) {
+    std::vector<LowOperand> to;
+    std::vector<ValueId> from, results;
+    for (size_t i = 0; i < args.size(); ++i) {
+      if (!used_[loop.inst->results[i]]) continue;
+      to.push_back(loop.merge[i]);
+      from.push_back(args[i]);
+      results.push_back(loop.inst->results[i]);
+    }
+    merge(std::move(to), std::move(from), results, true);
   }
 
   // ---- Where instructions go.
@@ -259,6 +285,8 @@ private:
     where_ = m_.insts[id].where;
     if (in_strip_ || is_alias(id) || is_terminator(m_.insts[id].op)) {
       emit_inst(id);
+    } else if (can_overtake(id)) {
+      emit_inst(id);
     } else if (!strippable(id)) {
       // Loops and light blocks begin with copies, which join the strips gathered so far.
       if (!begins_with_copies(m_.insts[id].op)) flush();
@@ -270,6 +298,19 @@ private:
     } else {
       pending_.push_back({id, {}, {}, {}, false, where_});
     }
+  }
+
+  /// A question to the scene that needs nothing from the strips being gathered: asked in front of them, it
+  /// does not cut them in two.
+  bool can_overtake(InstId id) const {
+    const Inst& inst = m_.insts[id];
+    if (inst.op != Op::kCall || !inst.regions.empty() || !args_located(id)) return false;
+    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    if (info.kind != ShadeopKind::kGrid || info.flags & kDerivative || effect_of(m_, inst) == Effect::kWrites)
+      return false;
+    return std::none_of(pending_.begin(), pending_.end(), [&](const InstAction& a) {
+      return a.inst == ~0u || effect_of(m_, m_.insts[a.inst]) == Effect::kWrites;
+    });
   }
 
   static bool begins_with_copies(Op op) { return is_loop(op) || op == Op::kIlluminate || op == Op::kSolar; }
@@ -302,7 +343,9 @@ private:
       level_[inst.results[0]] = level_[inst.args[0]];
       break;
     case Op::kArray: locations_[inst.results[0]] = word(make_operand(Space::kArray, inst.index)); break;
-    case Op::kArrayClear: add(Opcode::k_astart, {word(make_operand(Space::kArray, inst.index))}); break;
+    case Op::kArrayClear:
+      add(make(code_of(Opcode::k_astart), {word(make_operand(Space::kArray, inst.index))}, 0, 1));
+      break;
     case Op::kArrayLoad: {
       level_[inst.results[0]] = depth();
       LowOperand subscript = use(inst.args[0]);
@@ -315,8 +358,10 @@ private:
     }
     case Op::kArrayStore: {
       auto planes = static_cast<uint32_t>(components(m_.arrays[inst.index].type));
-      add(Opcode::k_astore, {word(planes), word(make_operand(Space::kArray, inst.index)), use(inst.args[0]),
-                             use(inst.args[1])});
+      add(make(
+          code_of(Opcode::k_astore),
+          {word(planes), word(make_operand(Space::kArray, inst.index)), use(inst.args[0]), use(inst.args[1])},
+          1, 1));
       break;
     }
     case Op::kIf: emit_if(id); break;
@@ -344,10 +389,12 @@ private:
 
   void emit_store(const Inst& inst) {
     const Slot& slot = m_.slots[inst.index];
-    add(make(code_of(slot.varying ? Opcode::k_movm : Opcode::k_mov),
+    bool masked = slot.varying && mask_depth_ > 0;
+    add(make(code_of(masked ? Opcode::k_movm : Opcode::k_mov),
              {word(static_cast<uint32_t>(components(slot.type))),
               word(make_operand(Space::kSlot, inst.index)),
-              slot.varying ? use(inst.args[0]) : use_uniform(inst.args[0])}));
+              slot.varying ? use(inst.args[0]) : use_uniform(inst.args[0])},
+             1, 1));
   }
 
   void emit_call(const Inst& inst) {
@@ -458,11 +505,6 @@ private:
     return regs;
   }
 
-  struct Frame { // an open region, for the terminators inside
-    const Inst* inst;
-    std::vector<LowOperand> merge; // registers of results (loops: of carried values)
-  };
-
   // `if (!c) break;` with nothing else: lanes leave by one instruction.
   bool emit_while(const Inst& inst) {
     if (frames_.empty() || frames_.back().inst->op != Op::kLoop || !inst.results.empty()) return false;
@@ -470,7 +512,8 @@ private:
     if (inst.regions[0].body.size() != 1 || m_.insts[inst.regions[0].body[0]].op != Op::kYield) return false;
     if (inst.regions[1].body.size() != 1 || else_end.op != Op::kBreak || else_end.index != 0) return false;
     for (size_t i = 0; i < else_end.args.size(); ++i)
-      if (use(else_end.args[i]) != frames_.back().merge[i]) return false;
+      if (used_[frames_.back().inst->results[i]] && use(else_end.args[i]) != frames_.back().merge[i])
+        return false;
     bool varying = m_.varying(inst.args[0]);
     uint32_t at = add(varying ? Opcode::k_while : Opcode::k_uwhile, {use(inst.args[0]), target(0)});
     jump_to_end(at, 1);
@@ -518,10 +561,26 @@ private:
     return regs;
   }
 
+  /// How many ways there are to the next round of the loop around `region`.
+  uint32_t continues(const Region& region, uint32_t depth = 0) const {
+    uint32_t count = 0;
+    for (InstId id : region.body) {
+      const Inst& inst = m_.insts[id];
+      count += inst.op == Op::kContinue && inst.index == depth;
+      for (const Region& r : inst.regions)
+        count += continues(r, depth + is_loop(inst.op));
+    }
+    return count;
+  }
+
   void emit_loop(InstId id) {
     const Inst& inst = m_.insts[id];
     frames_.push_back({&inst, begin_carried(inst)});
     bool is_block = inst.op == Op::kBlock;
+    // Where all lanes go to the next round together, the others have left the loop.
+    if (!is_block && continues(inst.regions[0]) == 1)
+      for (ValueId r : inst.results)
+        lanes_off_matter_[r] = used_[r];
     uint32_t begin = add(is_block ? Opcode::k_block : Opcode::k_loop, {target(0)});
     if (is_block)
       for (const LowOperand& r : frames_.back().merge)
@@ -595,7 +654,10 @@ private:
       if (is_loop(frames_[f].inst->op) && level-- == 0) break;
     }
     const Frame& loop = frames_[f];
-    merge(loop.merge, inst.args, loop.inst->results, true);
+    if (inst.op == Op::kContinue)
+      merge(loop.merge, inst.args, loop.inst->results, true);
+    else
+      merge_used(loop, inst.args);
     flush();
     // The end of the body is the next round by itself.
     if (f == frames_.size() - 1 && inst.op == Op::kContinue) return;
@@ -621,15 +683,17 @@ private:
     flush();
     if (init_param_->elements == 0) {
       add(make(code_of(Opcode::k_mov),
-               {word(planes), word(make_operand(Space::kSlot, slot)), use(inst.args[0])}));
+               {word(planes), word(make_operand(Space::kSlot, slot)), use(inst.args[0])}, 1, 1));
       return;
     }
     uint32_t array = 0;
     while (m_.arrays[array].slot != init_param_->slot)
       ++array;
     for (size_t i = 0; i < inst.args.size(); ++i)
-      add(Opcode::k_astore, {word(planes), word(make_operand(Space::kArray, array)),
-                             number(static_cast<float>(i)), use(inst.args[i])});
+      add(make(code_of(Opcode::k_astore),
+               {word(planes), word(make_operand(Space::kArray, array)), number(static_cast<float>(i)),
+                use(inst.args[i])},
+               1, 1));
   }
 
   const Module& m_;
@@ -638,6 +702,8 @@ private:
   std::vector<LowOperand> locations_; // by value
   std::vector<uint32_t> level_;       // by value: the mask level whose lanes hold it
   std::vector<uint32_t> constant_words_;
+  std::vector<bool> used_;             // by value: an argument of something
+  std::vector<bool> lanes_off_matter_; // by result of a loop: copies to it are masked
   std::vector<InstAction> pending_;
   std::vector<Frame> frames_;
   std::vector<Level> levels_;

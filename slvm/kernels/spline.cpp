@@ -1,6 +1,6 @@
 // spline() (RISpec 3.2, 15.1) for any basis and number of knots, the knots as arguments or in an array. These
-// kernels are raw: lanes fall into different segments. Knots that are the same in all lanes, as most are, give a
-// table of each segment's coefficients; of varying ones each lane collects its own four.
+// kernels are raw: lanes fall into different segments. Knots that are the same in all lanes, as most are,
+// give a table of each segment's coefficients; of varying ones each lane collects its own four.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "slvm/kernels/spline.cpp"
 #include <hwy/foreach_target.h>
@@ -98,7 +98,8 @@ private:
     for (size_t p = 0; p < 4; ++p) {
       const float* row = table_[component][p];
       if (segments_ <= kWidth)
-        cubic.coefficient[p] = hn::TableLookupLanes(hn::Load(FloatTag(), row), hn::IndicesFromVec(FloatTag(), index));
+        cubic.coefficient[p] =
+            hn::TableLookupLanes(hn::Load(FloatTag(), row), hn::IndicesFromVec(FloatTag(), index));
       else
         cubic.coefficient[p] = hn::GatherIndex(FloatTag(), row, index);
     }

@@ -29,8 +29,9 @@ namespace HWY_NAMESPACE {
 struct Lanes {
   float* data;
   size_t pitch;
-  /// Ands a lane of the call into the lane of the plane to load. Uniform operands (step 0) repeat their kMaxLanes
-  /// equal values; a uniform call may store over them, so each vector reads the copies that only itself replaces.
+  /// Ands a lane of the call into the lane of the plane to load. Uniform operands (step 0) repeat their
+  /// kMaxLanes equal values; a uniform call may store over them, so each vector reads the copies that only
+  /// itself replaces.
   size_t wrap;
 
   HWY_INLINE Lanes(const Operand& o)
@@ -137,8 +138,8 @@ template <class R, class... A> struct Shape<R(A...)> {
       kFunction(arguments...);
     (put_output<A>(o[kOperandOf<I>], lane, arguments), ...);
   }
-  // Lanes are a copy of the operands: vector stores may alias anything, and would have them read again for each
-  // vector. Made member by member, it stays in registers.
+  // Lanes are a copy of the operands: vector stores may alias anything, and would have them read again for
+  // each vector. Made member by member, it stays in registers.
   template <auto kFunction, size_t... O, size_t... I>
   static HWY_INLINE void strip(const Operand* operands, size_t begin, size_t end, std::index_sequence<O...>,
                                std::index_sequence<I...> parameters) {

@@ -101,12 +101,12 @@ const Case kCases[] = {
     {"ConeInSurface", ir::cone_light, [](Program& p) { p.kind = ShaderKind::kSurface; },
      "a light cone in a shader that is no light"},
     // Operands.
-    {"RegisterOutOfBounds", ir::arithmetic, [](Program& p) { p.strip_planes = 2; },
+    {"RegisterOutOfBounds", ir::while_loop, [](Program& p) { p.strip_planes = 1; },
      "a register out of bounds"},
     {"ConstantOutOfBounds", ir::arithmetic, [](Program& p) { p.constants.pop_back(); },
      "a constant out of bounds"},
     {"StoreToConstant", ir::arithmetic,
-     [](Program& p) { operand(p, Opcode::k_movm, 1) = make_operand(Space::kConstant, 0); },
+     [](Program& p) { operand(p, Opcode::k_mov, 1) = make_operand(Space::kConstant, 0); },
      "a store to a constant"},
     {"StoreToReadOnly", ir::arithmetic,
      [](Program& p) {
@@ -114,14 +114,17 @@ const Case kCases[] = {
          s.stored = false;
      },
      "a store to a read-only variable"},
-    {"VariableOfAnotherSize", ir::arithmetic, [](Program& p) { operand(p, Opcode::k_movm, 0) = 1; },
+    {"VariableOfAnotherSize", ir::arithmetic, [](Program& p) { operand(p, Opcode::k_mov, 0) = 1; },
      "a variable out of bounds"},
-    {"CopyOfNoPlanes", ir::arithmetic, [](Program& p) { operand(p, Opcode::k_movm, 0) = 0; },
+    {"CopyOfNoPlanes", ir::arithmetic, [](Program& p) { operand(p, Opcode::k_mov, 0) = 0; },
      "a copy of no or too many planes"},
     {"StripRegisterOutside", ir::computed_default,
-     [](Program& p) { p.code[p.code.size() - 2] = make_operand(Space::kStrip, 0); },
+     [](Program& p) {
+       p.strip_planes = 1;
+       p.code[p.code.size() - 2] = make_operand(Space::kStrip, 0);
+     },
      "a strip register outside strips"},
-    {"OperandInNoSpace", ir::arithmetic, [](Program& p) { operand(p, Opcode::k_movm, 2) = 7u << 29; },
+    {"OperandInNoSpace", ir::arithmetic, [](Program& p) { operand(p, Opcode::k_mov, 2) = 7u << 29; },
      "an operand in no known space"},
     {"VaryingUniformCondition", ir::array_sum,
      [](Program& p) { operand(p, Opcode::k_uwhile, 0) = make_operand(Space::kStrip, 0); },
@@ -147,6 +150,17 @@ const Case kCases[] = {
          if (shadeop(i).name == "operator+") i = shadeop_overloads("Du")[0];
      },
      "a call for whole grids in a strip block"},
+    {"GridCallToVariable", ir::messages,
+     [](Program& p) {
+       for (uint32_t at = 0; at < p.code.size(); at += 1 + instruction_words(p.code[at])) {
+         uint16_t opcode = instruction_opcode(p.code[at]);
+         if (opcode >= kFirstShadeop && shadeop(p.imports[opcode - kFirstShadeop]).name == "Du")
+           for (uint32_t slot = 0; slot < p.slots.size(); ++slot)
+             if (p.slots[slot].name == "s")
+               p.slots[slot].stored = true, p.code[at + 1] = make_operand(Space::kSlot, slot);
+       }
+     },
+     "a call for whole grids that stores to a variable"},
     {"UniformResultOfVarying", ir::arithmetic,
      [](Program& p) { p.code[find_call(p) + 2] = make_operand(Space::kSlot, 1); },
      "a variable out of bounds"},

@@ -24,16 +24,15 @@ TEST(Emit, SamplesAreSoundAtEveryLevel) {
 
 TEST(Emit, UniformCodeStandsBeforeTheStrips) {
   EXPECT_EQ(disassemble(compile(arithmetic())),
-            "surface \"sample\": 2 uniform, 3 strip, 0 grid planes, mask depth 0\n"
+            "surface \"sample\": 2 uniform, 0 strip, 0 grid planes, mask depth 0\n"
             "main:\n"
             "    0   u0 = operator+ c1(1), c0(2)  ; line 2\n"
             "    4   u1 = operator* Kd, u0  ; line 3\n"
-            "    8   strip ->23, 0  ; line 4\n"
-            "   11     s0 = operator* N, u1  ; line 4\n"
-            "   15     movm 3, Ci, s0  ; line 4\n"
-            "   19     movm 3, Oi, Os  ; line 4\n"
-            "   23   endstrip  ; line 4\n"
-            "   24   end  ; line 4\n");
+            "    8   strip ->19, 0  ; line 4\n"
+            "   11     Ci = operator* N, u1  ; line 4\n"
+            "   15     mov 3, Oi, Os  ; line 4\n"
+            "   19   endstrip  ; line 4\n"
+            "   20   end  ; line 4\n");
 }
 
 TEST(Emit, ALoopThatOnlyTestsBecomesAWhile) {
@@ -54,6 +53,46 @@ TEST(Emit, BarriersCutStripBlocks) {
 TEST(Emit, UniformCountersOfUniformLoopsTakeOneValue) {
   std::string text = disassemble(compile(array_sum()));
   EXPECT_THAT(text, HasSubstr("uwhile u"));
+}
+
+// x, y = x + y, 2 x y while x < 8: x is read after its next value is known, which therefore is computed last.
+TEST(Emit, CarriedValuesAreComputedInPlace) {
+  Sketch s;
+  auto out = s.loop({s.read("s"), s.read("t"), s.number(0)}, [&](const std::vector<ValueId>& carried) {
+    s.branch(
+        s.less(carried[0], s.number(8)), {}, [&] { s.b.yield({}); }, [&] { s.b.break_out(0, carried); });
+    ValueId x = s.add(carried[0], carried[1]);
+    ValueId y = s.multiply(s.multiply(carried[0], carried[0]), carried[1]);
+    s.b.next_round(0, {x, y, s.add(carried[2], s.read("s"))});
+  });
+  s.store("Ci", s.b.call("convert", "color(float x)", {out[2]}));
+  std::string text = disassemble(compile(s.finish()));
+  std::string round = text.substr(text.find("loop ->"));
+  EXPECT_THAT(round, HasSubstr("s1 = operator* s3, s1")) << text;
+  EXPECT_THAT(round, HasSubstr("s0 = operator+")) << text;
+  size_t copy = round.find("mov");
+  EXPECT_EQ(round.find("mov", copy + 4), std::string::npos) << text; // only what is read afterwards is copied
+  EXPECT_THAT(round, HasSubstr("movm 1, s2, ")) << text;
+}
+
+// With two ways to the next round, lanes that took the first must keep their values: masked copies, all of
+// them.
+TEST(Emit, CarriedValuesOfLanesThatContinuedAreKept) {
+  std::string text = disassemble(compile(nested_exits()));
+  EXPECT_THAT(text, HasSubstr("continue"));
+  EXPECT_THAT(text, HasSubstr("movm"));
+}
+
+TEST(Emit, QuestionsToTheSceneDoNotCutStripBlocks) {
+  Sketch s;
+  ValueId x = s.multiply(s.read("s"), s.read("t"));
+  ValueId m = s.b.call("spacematrix", "uniform matrix(uniform string from, uniform string to)",
+                       {s.b.string("world"), s.b.string("current")});
+  ValueId p = s.b.call("transform", "point(matrix m, point p)", {m, s.read("P")});
+  s.store("Ci", s.binary("operator*", "color(color a, float b)", s.b.retype(Type::kColor, p), x));
+  std::string text = disassemble(compile(s.finish()));
+  EXPECT_LT(text.find("spacematrix"), text.find("strip ->")) << text;
+  EXPECT_EQ(text.find("strip ->"), text.rfind("strip ->")) << text;
 }
 
 TEST(Emit, DefaultsAreSectionsOfTheirOwn) {

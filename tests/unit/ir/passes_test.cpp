@@ -254,6 +254,80 @@ TEST(SelectSmallIfs, CheapBranchesBecomeASelection) {
       "  %7: float = call operator?: %2, %3, %6\n  %8: color = call convert %7\n  store Ci %8\n  yield\n");
 }
 
+// Two light loops; `between` gets the first one's result and gives the second one's initial value.
+template <class Between, class Body> Module two_light_loops(Between&& between, Body&& second_body) {
+  Sketch s;
+  ValueId zero = s.b.triple(Type::kColor, 0, 0, 0);
+  auto total = [&](ValueId carried) {
+    return s.binary("operator+", "color(color a, color b)", carried, s.read("Cl"));
+  };
+  auto first = s.light_loop({zero}, [&](auto& carried) { s.b.next_round(0, {total(carried[0])}); });
+  auto second =
+      s.light_loop({between(s, first[0])}, [&](auto& carried) { second_body(s, total(carried[0])); });
+  s.store("Ci", s.binary("operator*", "color(color a, color b)", first[0], second[0]));
+  Module m = s.finish();
+  merge_common(m);
+  return m;
+}
+ValueId scaled(Sketch& s, ValueId v) {
+  return s.binary("operator*", "color(color a, float b)", v, s.read("t"));
+}
+void next_round(Sketch& s, ValueId carried) {
+  s.b.next_round(0, {carried});
+}
+size_t light_loops(const Module& m) {
+  size_t count = 0;
+  for (InstId id : m.body.body)
+    count += m.insts[id].op == Op::kIlluminance;
+  return count;
+}
+
+TEST(MergeLightLoops, OneLoopDoesTheWorkOfTwo) {
+  Module m = two_light_loops([](Sketch& s, ValueId) { return scaled(s, s.read("Os")); }, next_round);
+  EXPECT_TRUE(merge_light_loops(m));
+  std::string text = body(m);
+  EXPECT_EQ(light_loops(m), 1u) << text;
+  EXPECT_NE(text.find("%9: color, %10: color = illuminance"), std::string::npos) << text;
+  EXPECT_FALSE(merge_light_loops(m));
+}
+
+TEST(MergeLightLoops, NotWhenTheSecondNeedsTheFirst) {
+  Module chained = two_light_loops([](Sketch& s, ValueId first) { return scaled(s, first); }, next_round);
+  EXPECT_FALSE(merge_light_loops(chained));
+  Module captured;
+  ValueId of_first = kNoValue;
+  captured = two_light_loops(
+      [&](Sketch& s, ValueId first) {
+        of_first = first;
+        return s.read("Os");
+      },
+      [&](Sketch& s, ValueId total) {
+        next_round(s, s.binary("operator*", "color(color a, color b)", total, of_first));
+      });
+  EXPECT_FALSE(merge_light_loops(captured));
+}
+
+TEST(MergeLightLoops, NotAcrossStores) {
+  Module m = two_light_loops(
+      [](Sketch& s, ValueId) {
+        s.store("Oi", s.read("Os"));
+        return s.read("Os");
+      },
+      next_round);
+  EXPECT_FALSE(merge_light_loops(m));
+}
+
+TEST(MergeLightLoops, NotWhenLanesLeaveEarly) {
+  Module m = two_light_loops([](Sketch& s, ValueId) { return s.read("Os"); },
+                             [](Sketch& s, ValueId total) {
+                               s.branch(
+                                   s.less(s.read("s"), s.number(2)), {}, [&] { s.b.yield({}); },
+                                   [&] { s.b.break_out(0, {total}); });
+                               next_round(s, total);
+                             });
+  EXPECT_FALSE(merge_light_loops(m));
+}
+
 TEST(SelectSmallIfs, KeepsBranchesWithEffectsOrCostlyCalls) {
   Module stores = varying_branch();
   EXPECT_FALSE(select_small_ifs(stores));

@@ -52,6 +52,17 @@ public:
     regions.push_back(region(types, body));
     return m.insts[b.region_inst(Op::kLoop, 0, std::move(initial), std::move(regions), types)].results;
   }
+  /// A loop over all lights in the half space of N around P.
+  template <class F> std::vector<ValueId> light_loop(std::vector<ValueId> initial, F&& body) {
+    std::vector<Type> types;
+    for (ValueId v : initial)
+      types.push_back(m.type(v));
+    std::vector<ValueId> args{b.string(""), read("P"), b.retype(Type::kVector, read("N")), number(1.57f)};
+    args.insert(args.end(), initial.begin(), initial.end());
+    std::vector<Region> regions;
+    regions.push_back(region(types, body));
+    return m.insts[b.region_inst(Op::kIlluminance, 1, std::move(args), std::move(regions), types)].results;
+  }
   /// Ends the body; the module is complete.
   Module finish();
 
