@@ -77,3 +77,16 @@ function(sl_unit_test name)
   target_link_libraries(${name} PRIVATE anemone_flags ${arg_LIBS} GTest::gtest_main GTest::gmock)
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS fast TIMEOUT 120)
 endfunction()
+
+# sl_embed(TARGET HEADER FUNCTION PREFIX PATTERN): the files that match, as texts in the library: FUNCTION, declared in
+# HEADER, gives them, each named PREFIX and its file name.
+function(sl_embed target header function prefix pattern)
+  file(GLOB files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${pattern})
+  string(REPLACE ";" "|" list "${files}")
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${function}.cpp)
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} -DNAMESPACE=${target} -DFUNCTION=${function}
+      -DPREFIX=${prefix} -DFILES=${list} -P ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+endfunction()

@@ -26,6 +26,5 @@ install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
 set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/anemone\")")
 install(SCRIPT ${PROJECT_SOURCE_DIR}/cmake/install_headers.cmake)
 
-if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/stdlib/include)
-  install(DIRECTORY stdlib/include/ DESTINATION ${CMAKE_INSTALL_DATADIR}/anemone/include)
-endif()
+# For reading: the compiler has them built in.
+install(DIRECTORY stdlib/include/ DESTINATION ${CMAKE_INSTALL_DATADIR}/anemone/include)

@@ -1,6 +1,7 @@
 // The steps of a compilation, one after another.
 #include "slc/compiler.h"
 
+#include "slc/embedded.h"
 #include "slc/lex/lexer.h"
 #include "slc/parse/parse.h"
 #include "slc/sema/sema.h"
@@ -18,7 +19,7 @@ PreprocessedText Compiler::preprocess(slvm::FileId main, const CompileOptions& o
                                       slvm::SourceManager& sources, slvm::Diagnostics& diags) const {
   PreprocessOptions complete = options.preprocess;
   complete.defines.push_back("ANEMONE=1");
-  if (!options.standard_include.empty()) complete.include_dirs.push_back(options.standard_include);
+  complete.standard_headers = standard_headers();
   return slc::preprocess(main, complete, sources, diags);
 }
 

@@ -19,8 +19,6 @@ class BuiltinLibrary;
 struct CompileOptions {
   /// Include folders, macros, and how files are read.
   PreprocessOptions preprocess;
-  /// Folder of the headers that come with Anemone, searched last; "" for none.
-  std::string standard_include;
   /// 0: code as written; 1: folding, copies, common subexpressions, dead code; 2: also code motion.
   int optimise = 2;
   /// Computes calls of constants (slvm/evaluator.h has one that runs the machine's kernels). Null: they stay

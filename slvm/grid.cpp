@@ -94,6 +94,7 @@ void Grid::reset(int nu, int nv) {
   for (Planes& p : globals_)
     p = {};
   primvars_.clear();
+  ray = {};
   for (Block& b : blocks_)
     b.used = 0;
 }

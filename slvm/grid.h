@@ -28,6 +28,15 @@ struct Planes {
   float get(size_t component, size_t point) const { return data[component * pitch + (step ? point : 0)]; }
 };
 
+/// The rays that hit the points of a grid: all of one kind, so that what it decides is uniform. The rays
+/// themselves are I, which ends at P.
+struct RayFacts {
+  std::string type = "camera"; ///< "specular", "diffuse", "transmission"... for points that rays hit
+  std::string label;
+  float depth = 0; ///< rays before this one, as many of each kind as follow
+  float specular_depth = 0, diffuse_depth = 0, shadow_depth = 0;
+};
+
 class Grid {
 public:
   Grid(int nu, int nv);
@@ -54,6 +63,8 @@ public:
   /// Frees all variables and changes the size; memory is kept for reuse.
   void reset(int nu, int nv);
 
+  /// What rayinfo() tells.
+  RayFacts ray;
   bool derivatives = true;
   /// calculatenormal's Du(P) ^ Dv(P) is turned round: set when the orientation or a mirroring transformation
   /// of the primitive makes the outside the other side.

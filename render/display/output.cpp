@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -241,6 +242,7 @@ std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& 
 std::vector<std::string> write_displays(const Scene& scene, const Image& image,
                                         const std::vector<AovChannel>& aovs, slvm::Diagnostics& diagnostics) {
   std::vector<std::string> written;
+  assert(aovs.empty() || image.channels == Image::kAov + aovs.back().first + aovs.back().components);
   Writer writer(scene, image, aovs);
   for (const DisplayRequest& d : scene.options.displays) {
     if (d.type == "null") continue;

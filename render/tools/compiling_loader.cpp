@@ -72,7 +72,6 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
   if (const char* folders = std::getenv("SLC_INCLUDE"))
     for (std::string& folder : parse_search_path(folders, {}, {}))
       options.preprocess.include_dirs.push_back(std::move(folder));
-  options.standard_include = standard_include_folder();
   options.evaluator = evaluator_.get();
   auto shaders = compiler_->compile(sources.add(file, std::move(*text)), options, sources, diagnostics);
   std::string messages = format_diagnostics(diagnostics, sources);

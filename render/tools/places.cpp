@@ -27,9 +27,4 @@ std::vector<std::string> standard_shader_folders() {
   return existing({"../share/anemone/shaders", "../shaders", "../../../shaders/standard"});
 }
 
-std::string standard_include_folder() {
-  auto found = existing({"../share/anemone/include", "../stdlib/include", "../../../stdlib/include"});
-  return found.empty() ? "" : found.front();
-}
-
 } // namespace render::tools

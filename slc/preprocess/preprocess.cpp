@@ -38,6 +38,9 @@ constexpr size_t kMaxExpansions = 200'000;
 // What Wave calls the main file: any other name it would make an absolute path.
 constexpr const char* kMainName = "<stdin>";
 
+// Where included files come from that the library brings along.
+constexpr std::string_view kStandardFolder = "<anemone>/";
+
 struct GiveUp {}; // thrown and caught inside this file
 
 // A position by line, then column: order of characters in a file.
@@ -86,6 +89,12 @@ public:
     std::string clean = normalise_source(text, &open_comment);
     if (open_comment) report(diags_, Msg::kOpenComment, word_range({file, open_comment, 0}, 0));
     return clean;
+  }
+  void keep(const std::string& path, const std::string& text) {
+    FileId id = sources_.find(path);
+    if (!id) id = sources_.add(path, text);
+    file_ids_[path] = id;
+    texts_[path] = normalise(id, text);
   }
   const std::string& normalised(const std::string& path) { return texts_[path]; }
 
@@ -152,10 +161,13 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
     std::optional<std::string> text = options_.read(path);
     if (!text) continue;
     out_.dependencies.push_back({path, system});
-    FileId id = sources_.find(path);
-    if (!id) id = sources_.add(path, *text);
-    file_ids_[path] = id;
-    texts_[path] = normalise(id, *text);
+    keep(path, *text);
+    return true;
+  }
+  for (const EmbeddedText& header : options_.standard_headers) {
+    if (header.name != name) continue;
+    path = fmt::format("{}{}", kStandardFolder, name); // no file: no dependency either
+    if (!texts_.contains(path)) keep(path, std::string(header.text));
     return true;
   }
   std::vector<std::string> named; // each once

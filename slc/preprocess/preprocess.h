@@ -6,6 +6,7 @@
 // where the macro is used: a diagnostic about it points at the use.
 #pragma once
 
+#include "slc/embedded.h"
 #include "slvm/support/diagnostics.h"
 
 #include <functional>
@@ -25,6 +26,7 @@ struct PreprocessOptions {
   std::vector<std::string> defines;      ///< NAME or NAME=VALUE
   std::vector<std::string> undefines;    ///< win over defines, in any order
   FileReader read = read_file;
+  std::span<const EmbeddedText> standard_headers; ///< searched last, by name
 };
 
 struct Dependency {

@@ -47,11 +47,11 @@ void BuiltinLibrary::build(TokenList tokens, slvm::Diagnostics& diags) {
   Checker(unit_, *this, true, diags).check_unit();
 }
 
-std::shared_ptr<const BuiltinLibrary> BuiltinLibrary::load(std::span<const BuiltinSource> files,
+std::shared_ptr<const BuiltinLibrary> BuiltinLibrary::load(std::span<const EmbeddedText> files,
                                                            slvm::SourceManager& sources,
                                                            slvm::Diagnostics& diags) {
   TokenList all;
-  for (const BuiltinSource& file : files) {
+  for (const EmbeddedText& file : files) {
     PreprocessOptions options;
     options.read = [](const std::string&) { return std::nullopt; };
     slvm::FileId id = sources.add(std::string(file.name), std::string(file.text));

@@ -4,25 +4,17 @@
 #pragma once
 
 #include "slc/ast/unit.h"
+#include "slc/embedded.h"
 #include "slc/lex/lexer.h"
 #include "slvm/support/diagnostics.h"
 
-#include <span>
-#include <string_view>
-
 namespace slc {
-
-/// A file of stdlib/builtins, embedded by the build.
-struct BuiltinSource {
-  std::string_view name, text;
-};
-std::span<const BuiltinSource> builtin_sources();
 
 class BuiltinLibrary {
 public:
   /// Parses and checks the files. Functions that match no row are helpers. Errors carry positions in
   /// `sources`, into which the files are added; the finished nodes carry none.
-  static std::shared_ptr<const BuiltinLibrary> load(std::span<const BuiltinSource> files,
+  static std::shared_ptr<const BuiltinLibrary> load(std::span<const EmbeddedText> files,
                                                     slvm::SourceManager& sources, slvm::Diagnostics& diags);
 
   /// The body of a row, or null.

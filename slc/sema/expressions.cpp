@@ -73,7 +73,9 @@ Variable* Checker::resolve(std::string_view name, SourceRange where) {
     report_unknown_variable(name, where);
     return nullptr;
   }
-  report(diags_, Msg::kNeedsExtern, where, name, slvm::type_name(hidden->type));
+  bool predefined = hidden == (global == Global::kCount ? nullptr : global_variable(global));
+  report(diags_, predefined ? Msg::kGlobalWithoutExtern : Msg::kNeedsExtern, where, name,
+         slvm::type_name(hidden->type));
   scopes_.declare(name, hidden); // once is enough
   return hidden;
 }

@@ -62,16 +62,6 @@ std::vector<std::string> split_path(std::string_view list) {
   return folders;
 }
 
-// The headers that come with Anemone, beside the program as installed or as built.
-std::string standard_include() {
-  std::error_code error;
-  fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  if (error) return "";
-  for (const char* place : {"../share/anemone/include", "../stdlib/include", "../../../stdlib/include"})
-    if (fs::is_directory(folder / place, error)) return fs::weakly_canonical(folder / place, error).string();
-  return "";
-}
-
 // What -W and the lint switches say. False: there is no such warning.
 bool switch_warning(std::string_view name, slvm::Diagnostics& diags) {
   bool on = !name.starts_with("no-");
@@ -175,7 +165,6 @@ std::optional<int> apply(ToolOptions& o, const Flags& f) {
   if (const char* folders = std::getenv("SLC_INCLUDE"))
     for (std::string& folder : split_path(folders))
       o.compile.preprocess.include_dirs.push_back(std::move(folder));
-  o.compile.standard_include = standard_include();
   o.dependencies_only = f.m || f.mm;
   o.dependencies = f.md || f.mmd;
   o.system_dependencies = !f.mm && !f.mmd;

@@ -113,11 +113,6 @@ private:
     compile_options.evaluator = evaluator_.get();
     for (const fs::path& folder : folders_)
       compile_options.preprocess.include_dirs.push_back(folder.string());
-    for (const char* place : {"../share/anemone/include", "../stdlib/include", "../../../stdlib/include"})
-      if (std::error_code error; fs::is_directory(program_folder() / place, error)) {
-        compile_options.standard_include = (program_folder() / place).lexically_normal().string();
-        break;
-      }
     auto shaders = compiler_.compile(sources.add(name, std::move(source)), compile_options, sources, diags);
     if (diags.has_errors()) return fail(kBadInput, slvm::format_diagnostics(diags, sources));
     if (shaders.empty())

@@ -2,7 +2,9 @@
 #include "slvm/exec/run.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 
@@ -53,6 +55,14 @@ void message(const GridCall& call, const ShaderRun* other) {
   q.result(true);
 }
 
+void wrong_type(const Query& q, const GridCall& call, Type type, uint32_t elements = 0) {
+  q.run.report(call.code, MessageSeverity::kError,
+               fmt::format("{} \"{}\" is a {}, not a {}", call.info.name, q.name, describe(type, elements),
+                           describe(q.out.type, q.out.array ? q.out.planes.elements : 0)),
+               q.run.points);
+  q.not_found();
+}
+
 using Source = bool (RendererServices::*)(const ShadingState&, std::string_view, Value&);
 
 void query(const GridCall& call, Source source) {
@@ -60,14 +70,9 @@ void query(const GridCall& call, Source source) {
   Value value;
   bool known = (q.run.state.services.*source)(q.run.shading_state(), q.name, value);
   uint32_t elements = q.out.array ? q.out.planes.elements : 0;
-  if (known && (value.type != q.out.type || value.elements != elements)) {
-    q.run.report(call.code, MessageSeverity::kError,
-                 fmt::format("{} \"{}\" is a {}, not a {}", call.info.name, q.name,
-                             describe(value.type, value.elements), describe(q.out.type, elements)),
-                 q.run.points);
-    known = false;
-  }
   if (!known) return q.not_found();
+  if (value.type != q.out.type || value.elements != elements)
+    return wrong_type(q, call, value.type, value.elements);
   for (const std::string& s : value.strings)
     value.numbers.push_back(std::bit_cast<float>(q.run.state.machine.strings().intern(s)));
   size_t lanes = q.out.planes.step ? q.run.pitch : kMaxLanes;
@@ -116,6 +121,56 @@ void option_query(const GridCall& call) {
 }
 void renderer_query(const GridCall& call) {
   query(call, &RendererServices::renderer_info);
+}
+
+void ray_query(const GridCall& call) {
+  Query q(call);
+  const RayFacts& ray = q.run.state.grid->ray;
+  StringPool& strings = q.run.state.machine.strings();
+  auto uniform = [&](Type type, float value) {
+    if (q.out.type != type || q.out.array) return wrong_type(q, call, type);
+    std::fill_n(q.out.planes.data, q.out.planes.step ? q.run.pitch : kMaxLanes, value);
+    q.result(true);
+  };
+  auto number = [&](float value) { uniform(Type::kFloat, value); };
+  auto text = [&](const std::string& value) {
+    uniform(Type::kString, std::bit_cast<float>(strings.intern(value)));
+  };
+  // `at(incident ray, its length, component)` at each point; a uniform variable cannot hold it.
+  auto varying = [&](Type type, auto&& at) {
+    if (q.out.array || components(q.out.type) != components(type)) return wrong_type(q, call, type);
+    if (!q.out.planes.step) return q.not_found();
+    const Grid& grid = *q.run.state.grid;
+    // The eye is at the origin: where the renderer gives no I, it is P.
+    const Planes& incident = grid.variable(grid.variable(Global::kI).data ? Global::kI : Global::kP);
+    for (size_t i = 0; i < q.run.points; ++i) {
+      std::array<float, 3> ray_to{};
+      for (size_t c = 0; c < 3 && incident.data; ++c)
+        ray_to[c] = incident.get(c, i);
+      float length = std::sqrt(ray_to[0] * ray_to[0] + ray_to[1] * ray_to[1] + ray_to[2] * ray_to[2]);
+      for (size_t c = 0; c < q.planes(); ++c)
+        q.out.planes.plane(c)[i] = at(ray_to, length, c, i);
+    }
+    q.result(true);
+  };
+  const Planes& p = q.run.state.grid->variable(Global::kP);
+  if (q.name == "type") return text(ray.type);
+  if (q.name == "label") return text(ray.label);
+  if (q.name == "depth") return number(ray.depth);
+  if (q.name == "speculardepth") return number(ray.specular_depth);
+  if (q.name == "diffusedepth") return number(ray.diffuse_depth);
+  if (q.name == "shadowdepth") return number(ray.shadow_depth);
+  if (q.name == "length")
+    return varying(Type::kFloat, [](const auto&, float length, size_t, size_t) { return length; });
+  if (q.name == "direction")
+    return varying(Type::kVector, [](const auto& to, float length, size_t c, size_t) {
+      return length > 0 ? to[c] / length : 0.0f;
+    });
+  if (q.name == "origin")
+    return varying(Type::kPoint, [&](const auto& to, float, size_t c, size_t i) {
+      return (p.data ? p.get(c, i) : 0.0f) - to[c];
+    });
+  q.not_found();
 }
 
 void shader_name(const GridCall& call) {

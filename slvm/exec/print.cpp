@@ -165,6 +165,27 @@ void print(const GridCall& call) {
   if (!text.empty()) call.run.state.services.print(call.run.shading_state(), text);
 }
 
+namespace {
+
+// One message for all points: the text of the first one. The machine folds those of other grids that read the
+// same.
+void print_message(const GridCall& call, MessageSeverity severity) {
+  const MaskWord* mask = call.run.mask.current();
+  size_t points = call.run.points, count = mask_count(mask, points), first = 0;
+  while (first < points && !mask_test(mask, first))
+    ++first;
+  if (first < points) call.run.report(call.code, severity, Formatter(call).text(first), count);
+}
+
+} // namespace
+
+void print_error(const GridCall& call) {
+  print_message(call, MessageSeverity::kError);
+}
+void print_warning(const GridCall& call) {
+  print_message(call, MessageSeverity::kWarning);
+}
+
 void format(const GridCall& call) {
   uint32_t id = call.run.state.machine.strings().intern(Formatter(call).text(0));
   std::fill_n(call.operands[0].planes.data, kMaxLanes, std::bit_cast<float>(id));

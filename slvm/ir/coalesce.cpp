@@ -1,5 +1,6 @@
-// Copies that end a computation: in strip blocks, an instruction whose only use is a copy of its result stores to
-// the copy's target itself. Where the target is still read in between, the instruction moves down to the copy.
+// Copies that end a computation: in strip blocks, an instruction whose only use is a copy of its result
+// stores to the copy's target itself. Where the target is still read in between, the instruction moves down
+// to the copy.
 #include "slvm/ir/emit_internal.h"
 
 #include <algorithm>
@@ -9,8 +10,9 @@ namespace {
 
 bool is_control(const LowInst& inst) {
   auto op = static_cast<Opcode>(inst.opcode);
-  bool plain = inst.opcode >= kFirstShadeop || op == Opcode::k_mov || op == Opcode::k_movm || op == Opcode::k_aload ||
-               op == Opcode::k_astore || op == Opcode::k_astart || op == Opcode::k_first;
+  bool plain = inst.opcode >= kFirstShadeop || op == Opcode::k_mov || op == Opcode::k_movm ||
+               op == Opcode::k_aload || op == Opcode::k_astore || op == Opcode::k_astart ||
+               op == Opcode::k_first;
   return !plain;
 }
 

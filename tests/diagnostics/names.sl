@@ -1,6 +1,6 @@
 // Names, and where they are known.
 float outer(float x) { return x * k; } // expect-error: unknown variable 'k'
-float uses_p() { return length(P); } // expect-error: declare 'extern point P;' // expect-warning: a point is used as a vector
+float uses_p() { return length(P); } // expect-warning: declare 'extern point P;' // expect-warning: a point is used as a vector
 float twice(float x) { return 2 * x; }
 float twice(float y) { return y + y; } // expect-error: defined twice
 float again(float x) { return again(x); } // expect-error: calls itself
@@ -12,6 +12,7 @@ float wrong_extern() {
 }
 surface s(float roughness = 0.1)
 {
+  float inner() { return roughness; } // expect-error: declare 'extern float roughness;'
   float blend = roughnes; // expect-error: did you mean 'roughness'?
   float blend = 2; // expect-error: declared twice
   float a[0] = {1}; // expect-error: must be a constant whole number

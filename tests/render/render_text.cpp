@@ -1,6 +1,8 @@
 // Helpers of the renderer's tests.
 #include "tests/render/render_text.h"
 
+#include "render/display/output.h"
+
 #include <cmath>
 
 namespace render::testing {
@@ -80,7 +82,9 @@ Rendered render_text(const std::string& rib, const FrameSettings& settings, Plai
   slvm::Diagnostics diagnostics;
   Interpreter interpreter(sources, diagnostics, [&](Scene& scene) {
     out.report = {};
-    out.image = render_frame(scene, shading, settings, out.report);
+    FrameSettings with_variables = settings;
+    if (settings.aovs.empty()) with_variables.aovs = display_aovs(scene.options, diagnostics);
+    out.image = render_frame(scene, shading, with_variables, out.report);
     out.scene = std::move(scene);
   });
   interpreter.read_text("test.rib", rib);

@@ -5,6 +5,7 @@
 #include "slvm/ir/build.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <map>
 
@@ -49,8 +50,10 @@ private:
 
   uint32_t constant_index(Constant c) {
     auto same = [&](const Constant& other) { // bitwise: -0 is not 0, and a NaN equals itself
-      return other.type == c.type && other.text == c.text && other.numbers.size() == c.numbers.size() &&
-             std::memcmp(other.numbers.data(), c.numbers.data(), c.numbers.size() * sizeof(float)) == 0;
+      return other.type == c.type && other.text == c.text &&
+             std::equal(
+                 other.numbers.begin(), other.numbers.end(), c.numbers.begin(), c.numbers.end(),
+                 [](float a, float b) { return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b); });
     };
     auto it = std::find_if(m_.constants.begin(), m_.constants.end(), same);
     if (it == m_.constants.end()) it = m_.constants.insert(it, std::move(c));

@@ -1,5 +1,6 @@
-// Light loops over the same lights: diffuse() and specular() of one surface are two loops, whose rounds are the same.
-// One loop does the work of both, and what they have in common (light directions, cone tests) is done once.
+// Light loops over the same lights: diffuse() and specular() of one surface are two loops, whose rounds are
+// the same. One loop does the work of both, and what they have in common (light directions, cone tests) is
+// done once.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -41,8 +42,8 @@ private:
   /// Every lane takes part in every round that reaches it, and nothing but the results tells that it did.
   bool mergeable(const Region& region, size_t at) const {
     const Inst& inst = m_.insts[region.body[at]];
-    return inst.op == Op::kIlluminance && effect_of(m_, inst) != Effect::kWrites && exits(inst.regions[0], 0) == 1 &&
-           m_.insts[inst.regions[0].body.back()].op == Op::kContinue;
+    return inst.op == Op::kIlluminance && effect_of(m_, inst) != Effect::kWrites &&
+           exits(inst.regions[0], 0) == 1 && m_.insts[inst.regions[0].body.back()].op == Op::kContinue;
   }
 
   size_t exits(const Region& region, uint32_t depth) const {
@@ -63,8 +64,8 @@ private:
 
   // ---- Merging.
 
-  /// Moves what loop `second` needs and stands between the two in front of `first`. False: it needs the first one's
-  /// results.
+  /// Moves what loop `second` needs and stands between the two in front of `first`. False: it needs the first
+  /// one's results.
   bool bring_forward(Region& region, size_t& first, size_t& second) {
     std::vector<bool> needed(m_.values.size(), false);
     need(m_.insts[region.body[second]], needed);
@@ -76,7 +77,8 @@ private:
       (move ? moved : kept).push_back(region.body[i]);
     }
     const Inst& loop = m_.insts[region.body[first]];
-    if (std::any_of(loop.results.begin(), loop.results.end(), [&](ValueId v) { return needed[v]; })) return false;
+    if (std::any_of(loop.results.begin(), loop.results.end(), [&](ValueId v) { return needed[v]; }))
+      return false;
     auto at = region.body.begin() + static_cast<std::ptrdiff_t>(first);
     InstId first_id = *at, second_id = region.body[second];
     at = std::copy(moved.rbegin(), moved.rend(), at);

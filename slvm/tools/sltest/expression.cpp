@@ -31,7 +31,8 @@ std::string formal_text(const Formal& f) {
 std::string shader_text(const std::string& code, std::span<const Formal> formals, Type type, bool has_result,
                         const CodeOptions& options) {
   const bool text = type == Type::kString;
-  std::string source = fmt::format("surface {}(", kExpressionName);
+  std::string source = options.prelude.empty() ? "" : options.prelude + "\n";
+  source += fmt::format("surface {}(", kExpressionName);
   for (const Formal& f : formals)
     source += formal_text(f);
   if (has_result)

@@ -41,7 +41,8 @@ struct CodeOptions {
   int opt_level = 2;
   std::vector<Type> types;
   std::vector<std::string> path;
-  std::string macros; ///< preprocessor lines before the code
+  std::string prelude; ///< lines before the shader
+  std::string macros;  ///< preprocessor lines before the code
   std::string result = kResultName;
 };
 ShaderPtr compile_code(ShaderLibrary& library, const std::string& code, std::span<const Formal> formals,

@@ -43,6 +43,7 @@ void copy_planes(float* to, size_t pitch, const Variable& v, size_t points) {
 void fill(Grid& grid, const GridData& data, StringPool& strings) {
   grid.derivatives = data.derivatives;
   grid.flip_normals = data.flip_normals;
+  grid.ray = data.ray;
   grid.object_to_current = data.object_to_current;
   for (const Variable& v : data.variables) {
     Global g = find_global(v.name);

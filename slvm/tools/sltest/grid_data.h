@@ -35,6 +35,7 @@ Variable uniform_variable(std::string name, const Value& value);
 struct GridData {
   int nu = 1, nv = 1;
   bool derivatives = true, flip_normals = false;
+  RayFacts ray;
   Matrix4 object_to_current;
   std::vector<Variable> variables; ///< predefined ones by name, all others are primitive variables
 

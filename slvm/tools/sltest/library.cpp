@@ -19,8 +19,7 @@ struct ShaderLibrary::Tools {
   std::unique_ptr<ir::ConstantEvaluator> evaluator = make_kernel_evaluator();
 };
 
-ShaderLibrary::ShaderLibrary(std::string standard_include)
-    : standard_include_(std::move(standard_include)), tools_(std::make_unique<Tools>()) {}
+ShaderLibrary::ShaderLibrary() : tools_(std::make_unique<Tools>()) {}
 ShaderLibrary::~ShaderLibrary() = default;
 
 ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& source, int opt_level,
@@ -35,7 +34,6 @@ ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& sou
     sources.add(file, text);
   slc::CompileOptions options;
   options.optimise = opt_level;
-  options.standard_include = standard_include_;
   options.evaluator = tools_->evaluator.get();
   options.preprocess.include_dirs.assign(path.begin(), path.end());
   std::vector<slc::CompiledShader> compiled = tools_->compiler.compile(main, options, sources, diags);

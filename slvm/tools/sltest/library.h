@@ -31,8 +31,7 @@ struct ShaderError {
 
 class ShaderLibrary {
 public:
-  /// `standard_include`: the folder of the headers that come with Anemone, "" for none.
-  explicit ShaderLibrary(std::string standard_include);
+  ShaderLibrary();
   ~ShaderLibrary();
 
   /// Makes the text of a file known, so that messages about code that stands in it can show its lines.
@@ -52,7 +51,6 @@ private:
   ShaderPtr load(const std::string& file, ShaderError& error);
 
   struct Tools;
-  std::string standard_include_;
   std::unique_ptr<Tools> tools_;
   std::map<std::string, std::string> texts_;
   std::map<std::string, ShaderPtr> shaders_; ///< by level, name and source

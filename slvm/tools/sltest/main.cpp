@@ -22,7 +22,7 @@ void print(std::FILE* stream, const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stream);
 }
 
-/// The folder of this program; shaders and headers lie beside it, installed or freshly built.
+/// The folder of this program; shaders lie beside it, installed or freshly built.
 std::filesystem::path program_folder() {
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
@@ -31,14 +31,6 @@ std::filesystem::path program_folder() {
 std::vector<std::string> standard_folders() {
   const std::filesystem::path root = program_folder().parent_path();
   return {(root / "share/anemone/shaders").string(), (root / "shaders").string()};
-}
-
-std::string standard_include() {
-  std::error_code error;
-  for (const char* place : {"../share/anemone/include", "../stdlib/include", "../../../stdlib/include"})
-    if (std::filesystem::path folder = program_folder() / place; std::filesystem::is_directory(folder, error))
-      return folder.lexically_normal().string();
-  return "";
 }
 
 /// Reads a test file and runs its cases. False: it could not be read.
@@ -99,7 +91,7 @@ int run(int argc, const char* const* argv) {
   if (parsed.done) return parsed.status;
   for (std::string& folder : standard_folders())
     options.path.push_back(std::move(folder));
-  ShaderLibrary library(standard_include());
+  ShaderLibrary library;
   if (!options.inputs.empty() && options.inputs[0].ends_with(".toml")) return run_tests(options, library);
   Outcome outcome = run_one_off(options, library);
   print(stdout, outcome.out);

@@ -29,6 +29,7 @@ ShaderPtr obtain_expression(const Setup& setup, const ShaderRef& ref, std::span<
   options.opt_level = opt_level;
   if (ref.result) options.types = {*ref.result};
   options.path = setup.path;
+  options.prelude = setup.prelude;
   return compile_code(library, ref.text, all, options, error);
 }
 

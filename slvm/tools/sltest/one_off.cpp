@@ -106,6 +106,7 @@ private:
   void complete_setup() {
     const bool code = !options_.expression.empty();
     setup_.shader.form = code ? ShaderForm::kExpression : ShaderForm::kFile;
+    setup_.prelude = options_.prelude;
     setup_.shader.text = code ? options_.expression : options_.inputs.at(0);
     setup_.path = options_.path;
     setup_.path.insert(setup_.path.begin(), ".");

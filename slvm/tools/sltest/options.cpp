@@ -160,6 +160,9 @@ void add_run_options(CLI::App& app, Options& o, Texts& texts) {
       ->allow_extra_args(false);
   group(app.add_option("--expr", o.expression, "Run an RSL expression, or statements that set `result`"))
       ->type_name("CODE");
+  group(app.add_option("--prelude", o.prelude,
+                       "Lines before the code of --expr: '#include \"noises.h\"', functions"))
+      ->type_name("CODE");
   group(app.add_option("--set", texts.settings,
                        "Set variables or primitive variables to numbers or RSL expressions"))
       ->type_name("NAME=VALUE");

@@ -15,7 +15,7 @@ enum ExitStatus : int { kOk = 0, kFailed = 1, kUsage = 2, kMissing = 3, kInterna
 
 struct Options {
   std::vector<std::string> inputs; ///< test files, or one shader
-  std::string expression;
+  std::string expression, prelude;
   // Test files
   std::string filter, junit;
   bool list = false, verbose = false, quick = false;

@@ -3,6 +3,7 @@
 // order: value.h (values whose type is not known yet), setup.h, test_case.h (what a test expects of it).
 #pragma once
 
+#include "slvm/grid.h"
 #include "slvm/support/matrix.h"
 #include "slvm/tools/sltest/value.h"
 
@@ -31,6 +32,7 @@ struct GridSpec {
   bool center = false; ///< sample at the centres of nu x nv cells instead of from edge to edge
   bool derivatives = true;
   bool flip_normals = false;
+  RayFacts ray;
 };
 
 struct Setup {
@@ -43,6 +45,7 @@ struct Setup {
   std::vector<Setting> primvars;         ///< primitive variables, likewise
   std::map<std::string, Matrix4> spaces; ///< from the named space to "current"
   std::vector<Setting> attributes, options;
+  std::string prelude;           ///< RSL before each expression: #include lines, macros, functions
   std::vector<std::string> path; ///< folders searched for shaders and for what they include, in order
 };
 

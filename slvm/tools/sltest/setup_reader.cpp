@@ -146,6 +146,19 @@ void read_resolution(const toml::node& node, const TomlSource& source, GridSpec&
   grid.nv = static_cast<int>(raw.numbers[1]);
 }
 
+void read_ray(const toml::table& t, const TomlSource& source, RayFacts& ray) {
+  TableReader table(t, source);
+  table.read("type", ray.type);
+  table.read("label", ray.label);
+  for (auto [key, value] :
+       {std::pair("depth", &ray.depth), std::pair("speculardepth", &ray.specular_depth),
+        std::pair("diffusedepth", &ray.diffuse_depth), std::pair("shadowdepth", &ray.shadow_depth)}) {
+    double number = static_cast<double>(*value);
+    if (table.read(key, number)) *value = static_cast<float>(number);
+  }
+  table.finish();
+}
+
 void read_grid(const toml::table& t, const TomlSource& source, Setup& setup) {
   TableReader table(t, source);
   table.read("shape", setup.grid.shape);
@@ -153,6 +166,7 @@ void read_grid(const toml::table& t, const TomlSource& source, Setup& setup) {
   table.read("center", setup.grid.center);
   table.read("derivatives", setup.grid.derivatives);
   table.read("flip_normals", setup.grid.flip_normals);
+  if (const toml::table* ray = table.table("ray")) read_ray(*ray, source, setup.grid.ray);
   table.finish();
 }
 
@@ -190,6 +204,7 @@ void read_setup(TableReader& table, const TomlSource& source, Setup& setup) {
       else
         setup.spaces[name] = m;
     }
+  table.read("prelude", setup.prelude);
   if (const toml::node* node = table.get("path")) read_path(*node, source, setup);
 }
 

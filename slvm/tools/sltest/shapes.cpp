@@ -146,6 +146,7 @@ Result<GridData> make_shape(const GridSpec& spec, ShaderKind kind) {
   grid.nv = spec.nv;
   grid.derivatives = spec.derivatives;
   grid.flip_normals = spec.flip_normals;
+  grid.ray = spec.ray;
   add_geometry(grid, *shape, spec.center);
   grid.set(uniform("du", {element(spec.nu, spec.center)}));
   grid.set(uniform("dv", {element(spec.nv, spec.center)}));

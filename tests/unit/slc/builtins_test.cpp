@@ -20,8 +20,8 @@ TEST(Builtins, every_row_with_an_rsl_body_has_one) {
 TEST(Builtins, errors_in_bodies_have_places) {
   slvm::SourceManager sources;
   slvm::Diagnostics diags;
-  slc::BuiltinSource file{"builtins/wrong.sl",
-                          "color phong(normal N; vector V; float size) {\n  return nonsense;\n}\n"};
+  slc::EmbeddedText file{"builtins/wrong.sl",
+                         "color phong(normal N; vector V; float size) {\n  return nonsense;\n}\n"};
   slc::BuiltinLibrary::load({&file, 1}, sources, diags);
   EXPECT_EQ(slvm::format_diagnostics(diags, sources),
             "builtins/wrong.sl:2:10: error: unknown variable 'nonsense'\n"

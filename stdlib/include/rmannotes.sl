@@ -1,0 +1,2 @@
+/* rmannotes.sl: the older name of rmannotes.h. */
+#include "rmannotes.h"
