@@ -8,7 +8,7 @@ import re
 
 import tree
 
-SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/renderer_services"]
+SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -16,7 +16,8 @@ ALLOWED = {
     "slvm/ir": ["slvm/format", "slvm/support", "slvm/value"],
     "slvm/wide": ["slvm/support"],
     "slvm/grid": ["slvm/format", "slvm/wide", "slvm/support", "slvm/value"],
-    "slvm/renderer_services": ["slvm/grid", "slvm/format", "slvm/support", "slvm/value"],
+    "slvm/textures": ["slvm/support", "slvm/value"],
+    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
     "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
     "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",
@@ -24,6 +25,8 @@ ALLOWED = {
     "slvm/exec": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/machine", "slvm/evaluator",
                   "slvm/support"] + SLVM_TOP,
     "slvm/tools": ["slvm", "slc"],
+    # The module of sltest that holds OpenImageIO takes its textures from the renderer.
+    "slvm/tools/sltest/texture_oiio": ["slvm", "render/texture"],
     "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],

@@ -5,6 +5,7 @@
 #include "render/hider/frame.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
+#include "render/texture/texture_maps.h"
 
 #include <fmt/format.h>
 
@@ -36,6 +37,22 @@ struct Renderer::Impl {
   std::set<std::tuple<std::string, uint32_t, std::string, std::string>> shown;
 };
 
+namespace {
+
+TextureMaps::Settings texture_settings(const Options& options) {
+  TextureMaps::Settings s;
+  if (auto it = options.search_paths.find("texture"); it != options.search_paths.end())
+    for (const std::string& folder : it->second)
+      s.search_path += folder + ":";
+  s.search_path += ".";
+  if (auto it = options.named.find("shadow:bias");
+      it != options.named.end() && it->second.numbers.size() == 1)
+    s.shadow_bias = it->second.numbers[0];
+  return s;
+}
+
+} // namespace
+
 void Renderer::Impl::render(Scene& frame) {
   if (frame.options.displays.empty()) frame.options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
   FrameSettings s;
@@ -45,7 +62,8 @@ void Renderer::Impl::render(Scene& frame) {
   BoundShaders shaders(frame, machine, cache, diagnostics);
   flush();
   if (s.progress) s.progress(0);
-  SceneServices services(frame, shaders, settings.print);
+  TextureMaps textures(texture_settings(frame.options));
+  SceneServices services(frame, shaders, textures, settings.print);
   VmShading shading(machine, shaders, services);
   FrameReport report;
   Image image = render_frame(frame, shading, s, report);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "slvm/grid.h"
+#include "slvm/textures.h"
 
 #include <span>
 #include <string_view>
@@ -61,6 +62,9 @@ public:
   virtual bool attribute(const ShadingState&, std::string_view name, Value& out) = 0;
   virtual bool option(const ShadingState&, std::string_view name, Value& out) = 0;
   virtual bool renderer_info(const ShadingState&, std::string_view name, Value& out) = 0;
+
+  /// Who looks up textures; null: nobody, and every lookup is a run-time message.
+  virtual TextureServices* textures() { return nullptr; }
 
   /// Text of printf, in order within one grid.
   virtual void print(const ShadingState&, std::string_view text) = 0;

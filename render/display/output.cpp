@@ -2,7 +2,9 @@
 #include "render/display/output.h"
 
 #include "render/display/quantize.h"
+#include "render/state/camera.h"
 #include "render/state/declaration.h"
+#include "render/state/transforms.h"
 #include "slvm/format/shadeop_info.h"
 
 #include <OpenImageIO/imageio.h>
@@ -143,7 +145,10 @@ void Writer::fill_spec(OIIO::ImageSpec& spec, const std::vector<OutputChannel>& 
   spec.attribute("Software", "Anemone slrender");
   spec.attribute("PixelAspectRatio", options_.pixel_aspect);
   Camera camera(options_);
-  Matrix4 to_screen = scene_.world_to_camera * camera.to_screen();
+  // To the picture, x from -1 to 1 left to right, y from -1 to 1 upwards, as textureinfo() and shadow() want
+  // it.
+  Matrix4 to_screen =
+      scene_.world_to_camera * camera.to_ndc() * translation({-0.5f, -0.5f, 0}) * scaling({2, -2, 1});
   spec.attribute("worldtocamera", OIIO::TypeMatrix, scene_.world_to_camera.m.data());
   spec.attribute("worldtoscreen", OIIO::TypeMatrix, to_screen.m.data());
 }

@@ -42,9 +42,9 @@ std::string_view orientation_name(Orientation o) {
 
 } // namespace
 
-SceneServices::SceneServices(const Scene& scene, const BoundShaders& shaders,
+SceneServices::SceneServices(const Scene& scene, const BoundShaders& shaders, slvm::TextureServices& textures,
                              std::function<void(std::string_view)> print)
-    : scene_(scene), shaders_(shaders), print_(std::move(print)) {
+    : scene_(scene), shaders_(shaders), textures_(textures), print_(std::move(print)) {
   auto add = [&](const std::string& name, const Matrix4& to_camera) {
     spaces_[name] = {to_camera, inverse_or_identity(to_camera)};
   };

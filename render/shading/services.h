@@ -16,7 +16,8 @@ namespace render {
 class SceneServices : public slvm::RendererServices {
 public:
   /// `print` gets the text of printf, one grid at a time. All arguments must outlive the services.
-  SceneServices(const Scene& scene, const BoundShaders& shaders, std::function<void(std::string_view)> print);
+  SceneServices(const Scene& scene, const BoundShaders& shaders, slvm::TextureServices& textures,
+                std::function<void(std::string_view)> print);
 
   bool space_to_current(const slvm::ShadingState&, std::string_view space, Matrix4& m) override;
   bool current_to_space(const slvm::ShadingState&, std::string_view space, Matrix4& m) override;
@@ -25,6 +26,7 @@ public:
   bool option(const slvm::ShadingState&, std::string_view name, slvm::Value& out) override;
   bool renderer_info(const slvm::ShadingState&, std::string_view name, slvm::Value& out) override;
   void print(const slvm::ShadingState&, std::string_view text) override;
+  slvm::TextureServices* textures() override { return &textures_; }
 
 private:
   struct Space {
@@ -32,6 +34,7 @@ private:
   };
   const Scene& scene_;
   const BoundShaders& shaders_;
+  slvm::TextureServices& textures_;
   std::function<void(std::string_view)> print_;
   std::mutex print_mutex_;
   std::map<std::string, Space, std::less<>> spaces_;

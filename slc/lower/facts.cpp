@@ -84,8 +84,7 @@ slvm::Facts collect_facts(const ir::Module& m) {
     const ir::Constant* first = inst.args.empty() ? nullptr : constants[inst.args[0]];
     if (!first || first->type != Type::kString) return;
     if (info.flags & slvm::kTexture && !first->text.empty()) textures.insert(first->text);
-    if (info.flags & slvm::kContextOut && info.flags & slvm::kHiddenVarying)
-      messages.insert(std::string(info.name) + ":" + first->text);
+    if (info.flags & slvm::kMessage) messages.insert(std::string(info.name) + ":" + first->text);
   };
   for (const ir::Region& r : m.inits)
     ir::for_each_inst(m, r, visit);

@@ -1,66 +1,21 @@
 // Message passing and queries: values of other shaders' parameters, of attributes, options and the renderer.
-#include "slvm/exec/run.h"
+#include "slvm/exec/query.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <fmt/format.h>
 
 namespace slvm {
 namespace {
 
-// Operands of all of these: result, value stored, name, value before. With an array: the array itself is
-// both.
-struct Query {
-  explicit Query(const GridCall& call)
-      : run(call.run), found(call.operands[0].planes), out(call.operands[1]), before(call.operands[3]),
-        name(run.state.machine.strings().text(std::bit_cast<uint32_t>(*call.operands[2].planes.data))) {}
-
-  size_t planes() const {
-    return static_cast<size_t>(components(out.type)) * (out.array ? out.planes.elements : 1);
-  }
-  void result(bool yes) const { std::fill_n(found.data, kMaxLanes, yes ? 1.0f : 0.0f); }
-
-  void copy(const Operand& from) const {
-    const Operand& to = out.planes;
-    size_t lanes = to.step ? run.pitch : kMaxLanes;
-    for (size_t i = 0; i < planes(); ++i) {
-      if (from.step && to.step)
-        std::memmove(to.plane(i), from.plane(i), lanes * sizeof(float));
-      else
-        std::fill_n(to.plane(i), lanes, *from.plane(i));
-    }
-  }
-  /// Where nothing is found the variable keeps its value.
-  void not_found() const {
-    result(false);
-    if (!out.array && out.planes.data != before.planes.data) copy(before.planes);
-  }
-
-  ShaderRun& run;
-  Operand found;
-  GridOperand out, before;
-  std::string_view name;
-};
-
 void message(const GridCall& call, const ShaderRun* other) {
   Query q(call);
   const Planes* p = other ? other->parameter(q.name) : nullptr;
-  bool fits = p && p->type == q.out.type && p->elements == (q.out.array ? q.out.planes.elements : 0) &&
+  bool fits = p && p->type == q.out.type && p->elements == q.elements() &&
               (q.out.planes.step || !p->step); // a uniform variable takes a uniform value
   if (!fits) return q.not_found();
-  q.copy({p->data, p->pitch, p->step, std::max(p->elements, 1u)});
-  q.result(true);
-}
-
-void wrong_type(const Query& q, const GridCall& call, Type type, uint32_t elements = 0) {
-  q.run.report(call.code, MessageSeverity::kError,
-               fmt::format("{} \"{}\" is a {}, not a {}", call.info.name, q.name, describe(type, elements),
-                           describe(q.out.type, q.out.array ? q.out.planes.elements : 0)),
-               q.run.points);
-  q.not_found();
+  q.give({p->data, p->pitch, p->step, std::max(p->elements, 1u)});
 }
 
 using Source = bool (RendererServices::*)(const ShadingState&, std::string_view, Value&);
@@ -68,24 +23,13 @@ using Source = bool (RendererServices::*)(const ShadingState&, std::string_view,
 void query(const GridCall& call, Source source) {
   Query q(call);
   Value value;
-  bool known = (q.run.state.services.*source)(q.run.shading_state(), q.name, value);
-  uint32_t elements = q.out.array ? q.out.planes.elements : 0;
-  if (!known) return q.not_found();
-  if (value.type != q.out.type || value.elements != elements)
-    return wrong_type(q, call, value.type, value.elements);
-  for (const std::string& s : value.strings)
-    value.numbers.push_back(std::bit_cast<float>(q.run.state.machine.strings().intern(s)));
-  size_t lanes = q.out.planes.step ? q.run.pitch : kMaxLanes;
-  for (size_t i = 0; i < q.planes() && i < value.numbers.size(); ++i)
-    std::fill_n(q.out.planes.plane(i), lanes, value.numbers[i]);
-  q.result(true);
+  if ((q.run.state.services.*source)(q.run.shading_state(), q.name, value))
+    q.give(value);
+  else
+    q.not_found();
 }
 
 } // namespace
-
-std::string describe(Type type, uint32_t elements) {
-  return elements ? fmt::format("{}[{}]", type_name(type), elements) : std::string(type_name(type));
-}
 
 namespace grid_ops {
 
@@ -128,7 +72,7 @@ void ray_query(const GridCall& call) {
   const RayFacts& ray = q.run.state.grid->ray;
   StringPool& strings = q.run.state.machine.strings();
   auto uniform = [&](Type type, float value) {
-    if (q.out.type != type || q.out.array) return wrong_type(q, call, type);
+    if (q.out.type != type || q.out.array) return q.wrong_type(type);
     std::fill_n(q.out.planes.data, q.out.planes.step ? q.run.pitch : kMaxLanes, value);
     q.result(true);
   };
@@ -138,7 +82,7 @@ void ray_query(const GridCall& call) {
   };
   // `at(incident ray, its length, component)` at each point; a uniform variable cannot hold it.
   auto varying = [&](Type type, auto&& at) {
-    if (q.out.array || components(q.out.type) != components(type)) return wrong_type(q, call, type);
+    if (q.out.array || components(q.out.type) != components(type)) return q.wrong_type(type);
     if (!q.out.planes.step) return q.not_found();
     const Grid& grid = *q.run.state.grid;
     // The eye is at the origin: where the renderer gives no I, it is P.

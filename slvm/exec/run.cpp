@@ -14,6 +14,7 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal) {
   points = state.grid->points();
   pitch = state.grid->pitch();
   extra_used_ = 0;
+  unset_.clear();
   emission_count = 0;
   light_loop.end();
   bind_registers();
@@ -140,6 +141,14 @@ Planes ShaderRun::lattice(Global g) {
       data[i] = static_cast<float>(along_u ? iu : iv) * (n > 1 ? step : 0);
   std::fill(data + points, data + pitch, 0.0f);
   return {data, pitch, 1, Type::kFloat, 0};
+}
+
+const Planes& ShaderRun::variable(Global g) {
+  const Planes& p = state.grid->variable(g);
+  if (p.data) return p;
+  auto [it, is_new] = unset_.try_emplace(g);
+  if (is_new) it->second = default_variable(g);
+  return it->second;
 }
 
 // What a variable is that the renderer did not set.

@@ -8,6 +8,8 @@
 #include "slvm/kernels/table.h"
 #include "slvm/machine.h"
 
+#include <map>
+
 namespace slvm {
 
 /// What the runs of one context share, and the grid they are on.
@@ -82,6 +84,8 @@ public:
     int32_t i = bound.slot_of[static_cast<size_t>(g)];
     return i < 0 ? nullptr : &slots[static_cast<size_t>(i)];
   }
+  /// What a predefined variable is at the beginning, for functions that read it unasked.
+  const Planes& variable(Global g);
   /// The planes of parameter `name`, or null.
   const Planes* parameter(std::string_view name) const;
 
@@ -126,8 +130,9 @@ private:
   PlaneMemory memory_;
   std::vector<PlaneMemory> extra_; ///< variables with no place in the register memory
   size_t extra_used_ = 0;
-  std::vector<Operand> operands_; ///< of a call at grid level
-  std::vector<Operand> resolved_; ///< by word of code: operands in strip blocks
+  std::map<Global, Planes> unset_; ///< what variable() made so far
+  std::vector<Operand> operands_;  ///< of a call at grid level
+  std::vector<Operand> resolved_;  ///< by word of code: operands in strip blocks
   std::vector<CallOperand> decoded_;
   std::vector<GridOperand> grid_operands_;
   std::vector<MaskWord> condition_, lit_, entered_;

@@ -37,6 +37,7 @@ enum ShadeopFlags : uint32_t {
   kRays = 1u << 10,         ///< traces rays
   kTexture = 1u << 11,      ///< reads texture, environment or shadow maps
   kContextOut = 1u << 12,   ///< outputs keep their old value where the call finds nothing
+  kMessage = 1u << 13,      ///< asks another shader for its parameter
 };
 
 struct ShadeopInfo {

@@ -53,6 +53,8 @@ protected:
     return pixels_[static_cast<size_t>((y * 16 + x) * channels_ + c)];
   }
 
+  std::string path(const std::string& name) const { return (directory_ / name).string(); }
+
   /// RSL sources by shader name.
   std::map<std::string, std::string> shaders_;
   RendererSettings settings_;
@@ -268,6 +270,32 @@ TEST_F(RendererTest, colours_that_are_not_numbers_are_reported_and_drawn_black) 
               HasSubstr("shading points have a colour that is not a finite number; they are drawn black"));
   EXPECT_EQ(value(8, 8, 0), 0);
   EXPECT_EQ(value(8, 8, 3), 1);
+}
+
+TEST_F(RendererTest, textures_are_found_on_their_search_path) {
+  shaders_["paint"] =
+      "surface paint(string map = \"\") { Ci = color texture(map, 0.5, 0.375, \"width\", 0); Oi = 1; }";
+  std::string scene = "WorldBegin Surface \"paint\" \"map\" \"ramp.exr\"" + kSheet + "WorldEnd";
+  EXPECT_EQ(render("Option \"searchpath\" \"texture\" [\"" TEXTURE_FOLDER "\"]\n" + scene), "");
+  EXPECT_NEAR(value(3, 3, 0), 0.5f, 1e-3f);
+  EXPECT_NEAR(value(3, 3, 1), 0.375f, 1e-3f);
+  EXPECT_THAT(render(scene), HasSubstr("texture \"ramp.exr\""));
+  EXPECT_EQ(value(3, 3, 0), 0);
+}
+
+// A picture of depths is a shadow map: what the disk hid from its camera is in shadow, seen from anywhere.
+TEST_F(RendererTest, depth_pictures_are_shadow_maps) {
+  std::string map = path("depth.exr");
+  EXPECT_EQ(render("Display \"" + map +
+                   "\" \"openexr\" \"z\" PixelSamples 1 1\nWorldBegin Translate 0 0 2 "
+                   "Disk 0 0.5 360 WorldEnd"),
+            "");
+  shaders_["dark"] = "surface dark(string map = \"\") { Ci = 1 - shadow(map, P, \"width\", 0); Oi = 1; }";
+  EXPECT_EQ(render("WorldBegin Surface \"dark\" \"map\" \"" + map + "\"" + kSheet + "WorldEnd"), "");
+  EXPECT_EQ(value(8, 8, 0), 0);
+  EXPECT_EQ(value(1, 8, 0), 1);
+  EXPECT_EQ(value(8, 14, 0), 1);
+  EXPECT_EQ(value(9, 6, 0), 0); // within 4 pixels of the middle
 }
 
 } // namespace

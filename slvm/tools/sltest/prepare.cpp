@@ -118,6 +118,7 @@ bool read_values(const std::vector<Setting>& settings, std::map<std::string, Val
 bool prepare(const Setup& setup, ShaderLibrary& library, Prepared& prepared, RunError& error) {
   for (const auto& [name, matrix] : setup.spaces)
     if (name != "object") prepared.scene.spaces[name] = matrix;
+  prepared.scene.textures = std::make_shared<LazyTextures>(setup.path);
   if (!read_values(setup.attributes, prepared.scene.attributes, error) ||
       !read_values(setup.options, prepared.scene.options, error))
     return false;

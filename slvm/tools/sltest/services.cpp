@@ -101,4 +101,11 @@ bool MemoryServices::renderer_info(const ShadingState&, std::string_view name, V
   return true;
 }
 
+TextureServices* MemoryServices::textures() {
+  constexpr float kBias = 0.01f;
+  Value bias;
+  bool given = look_up(scene_.options, "shadow:bias", bias) && bias.numbers.size() == 1;
+  return scene_.textures ? scene_.textures->get(given ? bias.numbers[0] : kBias) : nullptr;
+}
+
 } // namespace slvm::sltest

@@ -10,13 +10,30 @@
 #include "slvm/machine.h"
 
 #include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 namespace slvm::sltest {
 
+/// Textures by the module, loaded when one is asked for.
+class LazyTextures {
+public:
+  explicit LazyTextures(std::vector<std::string> path) : path_(std::move(path)) {}
+  /// Null where there is no module.
+  TextureServices* get(float shadow_bias);
+
+private:
+  std::vector<std::string> path_;
+  std::mutex mutex_;
+  bool loaded_ = false;
+  std::unique_ptr<TextureServices> textures_;
+};
+
 /// What all runs of a case see of the world.
 struct Scene {
+  std::shared_ptr<LazyTextures> textures;
   std::map<std::string, Matrix4, std::less<>> spaces; ///< to "current"
   std::map<std::string, Value, std::less<>> attributes, options;
 };
@@ -33,6 +50,7 @@ public:
   bool option(const ShadingState&, std::string_view name, Value& out) override;
   bool renderer_info(const ShadingState&, std::string_view name, Value& out) override;
   void print(const ShadingState&, std::string_view text) override { printed_ += text; }
+  TextureServices* textures() override;
 
   const std::string& printed() const { return printed_; }
   void forget_printed() { printed_.clear(); }

@@ -50,14 +50,13 @@ TEST_F(MachineTest, WrongParametersAreNamed) {
 }
 
 TEST_F(MachineTest, WhatTheBuildCannotServeIsNamedAtBinding) {
-  auto shader =
-      machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = color texture(map); }"));
+  auto shader = machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = trace(P, N); }"));
   ASSERT_TRUE(shader);
   std::vector<ParamValue> map{{"map", {Type::kString, 0, {}, {"brick.tx"}}}};
-  auto textured = machine.instantiate(*shader, map);
-  ASSERT_FALSE(textured);
-  EXPECT_EQ(textured.error(), "surface \"s\" calls 'texture', which this build cannot serve");
-  EXPECT_TRUE(machine.instantiate(*shader, {})); // the default needs no texture
+  auto traced = machine.instantiate(*shader, map);
+  ASSERT_FALSE(traced);
+  EXPECT_EQ(traced.error(), "surface \"s\" calls 'trace', which this build cannot serve");
+  EXPECT_TRUE(machine.instantiate(*shader, {})); // the default needs no rays
 }
 
 TEST_F(MachineTest, PointParametersAreInShaderSpace) {

@@ -1,0 +1,45 @@
+// Differences between neighbours on the grid: what derivatives and filter regions are made of.
+//
+// Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes beside others that
+// have none) one-sided; 0 where none does, and for all of a grid without extent in that direction. RISpec 3.2 leaves the
+// scheme open; this is PRMan's default ("derivatives" "centered" 1).
+#pragma once
+
+#include "slvm/exec/grid_ops.h"
+#include "slvm/exec/run.h"
+
+namespace slvm {
+
+class Differences {
+public:
+  Differences(const GridCall& call)
+      : grid_(*call.run.state.grid), valid_(call.run.mask.at_level(call.level)),
+        everywhere_(call.level == 0) {}
+
+  /// Calls store(lane, lo, hi) for every point. along_u: neighbours in the row, else in the column.
+  template <class F> void for_each(bool along_u, F&& store) const {
+    int nu = grid_.nu(), nv = grid_.nv();
+    int n = along_u ? nu : nv;
+    size_t stride = along_u ? 1 : static_cast<size_t>(nu);
+    for (int iv = 0; iv < nv; ++iv)
+      for (int iu = 0; iu < nu; ++iu) {
+        size_t lane = static_cast<size_t>(iv) * static_cast<size_t>(nu) + static_cast<size_t>(iu);
+        int at = along_u ? iu : iv;
+        size_t lo = lane, hi = lane;
+        if (grid_.derivatives) {
+          if (at > 0 && holds(lane - stride)) lo = lane - stride;
+          if (at + 1 < n && holds(lane + stride)) hi = lane + stride;
+        }
+        store(lane, lo, hi, (hi - lo) / stride);
+      }
+  }
+
+private:
+  bool holds(size_t lane) const { return everywhere_ || mask_test(valid_, lane); }
+
+  const Grid& grid_;
+  const MaskWord* valid_;
+  bool everywhere_;
+};
+
+} // namespace slvm
