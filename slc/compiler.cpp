@@ -6,6 +6,8 @@
 #include "slc/parse/parse.h"
 #include "slc/sema/sema.h"
 
+#include <algorithm>
+
 namespace slc {
 
 Compiler::Compiler() {
@@ -23,6 +25,22 @@ PreprocessedText Compiler::preprocess(slvm::FileId main, const CompileOptions& o
   return slc::preprocess(main, complete, sources, diags);
 }
 
+namespace {
+
+// What is said about text out of a macro stands at the use of the macro: name the macro, too.
+void explain_expansions(const PreprocessedText& text, slvm::Diagnostics& diags) {
+  diags.for_each([&](slvm::Diagnostic& d) {
+    auto it = std::find_if(text.expansions.begin(), text.expansions.end(),
+                           [&](const Expansion& e) { return e.use == d.where; });
+    if (it == text.expansions.end()) return;
+    d.fixits.clear(); // they are for text that does not stand here
+    d.notes.push_back(
+        {it->definition, "in the expansion of macro '" + it->macro + "', which is defined here"});
+  });
+}
+
+} // namespace
+
 CheckedSource Compiler::check(slvm::FileId main, const CompileOptions& options, slvm::SourceManager& sources,
                               slvm::Diagnostics& diags) const {
   CheckedSource checked;
@@ -31,6 +49,7 @@ CheckedSource Compiler::check(slvm::FileId main, const CompileOptions& options, 
   if (diags.has_errors()) return checked; // text is missing: what would follow from that is no news
   checked.unit = parse(lex(checked.text, diags), diags);
   analyse(checked.unit, builtins_, diags);
+  explain_expansions(checked.text, diags);
   return checked;
 }
 

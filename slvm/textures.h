@@ -1,5 +1,5 @@
-// What texture(), environment() and shadow() ask of a renderer: lookups in maps, for all points of a grid at once. PUBLIC,
-// abstract: render/texture implements it with OpenImageIO; so can an embedder.
+// What texture(), environment() and shadow() ask of a renderer: lookups in maps, for all points of a grid at
+// once. PUBLIC, abstract: render/texture implements it with OpenImageIO; so can an embedder.
 #pragma once
 
 #include "slvm/support/matrix.h"
@@ -21,8 +21,8 @@ struct TextureOptions {
   bool between_levels = false; ///< interpolate between the two nearest levels of a mip-map
 };
 
-/// A lookup for many points. Each has a region over which the map is averaged: the parallelogram about `centre` with sides
-/// `along_u` and `along_v`. Regions without extent take one point of the map.
+/// A lookup for many points. Each has a region over which the map is averaged: the parallelogram about
+/// `centre` with sides `along_u` and `along_v`. Regions without extent take one point of the map.
 struct TextureLookup {
   static constexpr size_t kMost = 3;
 
@@ -33,8 +33,8 @@ struct TextureLookup {
 
   size_t points = 0;
   const uint64_t* mask = nullptr; ///< a bit a point, 64 a word: points that are off need no result
-  /// texture: s and t, (0, 0) upper left. environment: directions of any length, in the axes of the map. shadow: points
-  /// in "current" space. By component, then point.
+  /// texture: s and t, (0, 0) upper left. environment: directions of any length, in the axes of the map.
+  /// shadow: points in "current" space. By component, then point.
   std::vector<float> centre[kMost], along_u[kMost], along_v[kMost];
   /// Enlarges the region by this part of the map (of a whole turn: environment). One number, or one a point.
   std::vector<float> sblur, tblur;
@@ -50,8 +50,8 @@ struct TextureLookup {
   }
 };
 
-/// Calls come from many threads at once. They return "" or why there is nothing to be seen (a missing file); results are
-/// then 0.
+/// Calls come from many threads at once. They return "" or why there is nothing to be seen (a missing file);
+/// results are then 0.
 class TextureServices {
 public:
   virtual ~TextureServices() = default;
@@ -61,9 +61,10 @@ public:
   virtual std::string environment(const TextureLookup&) = 0;
   /// The part of the region that lies in shadow, 0 to 1; 0 outside the map.
   virtual std::string shadow(const TextureLookup&) = 0;
-  /// textureinfo(): "resolution" float[2], "type" string, "channels" float, "viewingmatrix" and "projectionmatrix" matrix,
-  /// from "current" space. False: no such map or field.
-  virtual bool info(std::string_view map, std::string_view field, const Matrix4& current_to_world, Value& out) = 0;
+  /// textureinfo(): "resolution" float[2], "type" string, "channels" float, "viewingmatrix" and
+  /// "projectionmatrix" matrix, from "current" space. False: no such map or field.
+  virtual bool info(std::string_view map, std::string_view field, const Matrix4& current_to_world,
+                    Value& out) = 0;
 };
 
 } // namespace slvm

@@ -9,7 +9,9 @@ namespace {
 // Fractions of two low-discrepancy sequences: points that fill the square evenly, whatever their number.
 constexpr float kGolden = 0.754877666f, kGoldenSquared = 0.569840291f;
 
-float fraction(float x) { return x - std::floor(x); }
+float fraction(float x) {
+  return x - std::floor(x);
+}
 
 } // namespace
 

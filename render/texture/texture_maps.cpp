@@ -20,7 +20,7 @@ class TextureMaps::System {
 public:
   explicit System(const Settings& settings) : textures_(OIIO::TextureSystem::create(false)) {
     textures_->attribute("searchpath", settings.search_path);
-    textures_->attribute("automip", 1);  // ordinary images get their levels
+    textures_->attribute("automip", 1);   // ordinary images get their levels
     textures_->attribute("autotile", 64); // and are kept in tiles
     textures_->attribute("max_memory_MB", settings.memory_megabytes);
     textures_->attribute("gray_to_rgb", 0); // absent channels are filled: RISpec 3.2, table 15.1
@@ -30,7 +30,8 @@ public:
 
   OIIO::TextureSystem* operator->() const { return textures_; }
 
-  /// Why the map cannot be used, in one line: what OpenImageIO said the first time, since it says so only once.
+  /// Why the map cannot be used, in one line: what OpenImageIO said the first time, since it says so only
+  /// once.
   std::string problem(std::string_view map) {
     std::string text = textures_->geterror();
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -57,14 +58,16 @@ struct Footprint {
   bool is_point() const { return s_u == 0 && t_u == 0 && s_v == 0 && t_v == 0; }
 };
 
-// OpenImageIO chooses the level by the region; the filter within a level is its nearest relative of what is asked for.
+// OpenImageIO chooses the level by the region; the filter within a level is its nearest relative of what is
+// asked for.
 OIIO::TextureOpt options_of(const TextureLookup& l) {
   OIIO::TextureOpt o;
   const slvm::TextureOptions& given = l.options;
   o.firstchannel = static_cast<int>(l.first_channel);
   o.fill = given.fill;
-  o.interpmode = given.filter == "gaussian" || given.filter == "catmull-rom" ? OIIO::TextureOpt::InterpBicubic
-                                                                             : OIIO::TextureOpt::InterpBilinear;
+  o.interpmode = given.filter == "gaussian" || given.filter == "catmull-rom"
+                     ? OIIO::TextureOpt::InterpBicubic
+                     : OIIO::TextureOpt::InterpBilinear;
   o.mipmode = given.between_levels ? OIIO::TextureOpt::MipModeAniso : OIIO::TextureOpt::MipModeDefault;
   if (given.samples >= 1) o.anisotropic = static_cast<int>(std::min(given.samples, 256.0f));
   return o;
@@ -81,7 +84,8 @@ void set_point_mode(OIIO::TextureOpt& o, const TextureLookup& l, bool is_point) 
 
 } // namespace
 
-TextureMaps::TextureMaps(const Settings& settings) : settings_(settings), system_(std::make_unique<System>(settings)) {}
+TextureMaps::TextureMaps(const Settings& settings)
+    : settings_(settings), system_(std::make_unique<System>(settings)) {}
 TextureMaps::~TextureMaps() = default;
 
 namespace {
@@ -104,7 +108,8 @@ std::string look_up(System& system, const TextureLookup& l, OIIO::TextureOpt::Wr
     o.tblur = TextureLookup::at(l.tblur, i);
     set_point_mode(o, l, f.is_point() && o.sblur == 0 && o.tblur == 0);
     float result[TextureLookup::kMost] = {};
-    if (!system->texture(map, thread, o, f.s, f.t, f.s_u, f.t_u, f.s_v, f.t_v, static_cast<int>(l.channels), result))
+    if (!system->texture(map, thread, o, f.s, f.t, f.s_u, f.t_u, f.s_v, f.t_v, static_cast<int>(l.channels),
+                         result))
       return system.problem(l.map);
     for (size_t c = 0; c < l.channels; ++c)
       l.result[c][i] = result[c];
@@ -211,7 +216,8 @@ std::string TextureMaps::shadow(const TextureLookup& l) {
     r.sblur = TextureLookup::at(l.sblur, i);
     r.tblur = TextureLookup::at(l.tblur, i);
     r.bias = l.bias.empty() ? settings_.shadow_bias : TextureLookup::at(l.bias, i);
-    r.samples = static_cast<int>(std::clamp(l.options.samples > 0 ? l.options.samples : kDefaultSamples, 1.0f, 4096.0f));
+    r.samples = static_cast<int>(
+        std::clamp(l.options.samples > 0 ? l.options.samples : kDefaultSamples, 1.0f, 4096.0f));
     r.seed = static_cast<uint32_t>(i) * 0x9e3779b9u >> 8;
     float shadowed = map->shadowed(r);
     for (size_t c = 0; c < l.channels; ++c)
@@ -229,7 +235,8 @@ Value matrix_value(const slvm::Matrix4& m) {
 
 } // namespace
 
-bool TextureMaps::info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world, Value& out) {
+bool TextureMaps::info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world,
+                       Value& out) {
   OIIO::ImageSpec spec;
   if (!(*system_)->get_imagespec(OIIO::ustring(map), 0, spec)) {
     (*system_)->geterror();
@@ -242,7 +249,9 @@ bool TextureMaps::info(std::string_view map, std::string_view field, const slvm:
     out = {Type::kFloat, 0, {static_cast<float>(spec.nchannels)}, {}};
   } else if (field == "type") {
     std::string kind = spec.get_string_attribute("textureformat");
-    std::string name = kind == "Shadow" ? "shadow" : kind.find("Env") != kind.npos ? "environment" : "texture";
+    std::string name = kind == "Shadow"                ? "shadow"
+                       : kind.find("Env") != kind.npos ? "environment"
+                                                       : "texture";
     out = {Type::kString, 0, {}, {name}};
   } else if (field == "viewingmatrix" && read_matrix(spec, "worldtocamera", m)) {
     out = matrix_value(current_to_world * m);

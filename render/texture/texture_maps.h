@@ -1,5 +1,5 @@
-// Texture, environment and shadow maps by OpenImageIO. Ordinary image files serve as well as tiled mip-maps, for which
-// OpenImageIO makes levels as they are needed.
+// Texture, environment and shadow maps by OpenImageIO. Ordinary image files serve as well as tiled mip-maps,
+// for which OpenImageIO makes levels as they are needed.
 #pragma once
 
 #include "slvm/textures.h"
@@ -16,8 +16,8 @@ class ShadowMap;
 class TextureMaps : public slvm::TextureServices {
 public:
   struct Settings {
-    std::string search_path;    ///< folders, separated by colons
-    float shadow_bias = 0.01f;  ///< where the shader says none
+    std::string search_path;   ///< folders, separated by colons
+    float shadow_bias = 0.01f; ///< where the shader says none
     float memory_megabytes = 1024;
   };
   explicit TextureMaps(const Settings&);

@@ -159,7 +159,7 @@ bool Lexer::dot_is_operator() const {
 void Lexer::lex_pragma() {
   size_t begin = at_, end = std::min(text_.find('\n', at_), text_.size());
   SourceRange where = range(begin, end);
-  PreprocessedText line{std::string(text_.substr(begin + 1, end - begin - 1)), {{0, where, false}}, {}};
+  PreprocessedText line{std::string(text_.substr(begin + 1, end - begin - 1)), {{0, where, false}}, {}, {}};
   at_ = end;
   std::vector<Token> words = lex(line, diags_).tokens;
   words.pop_back();

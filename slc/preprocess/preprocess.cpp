@@ -90,9 +90,10 @@ public:
     if (open_comment) report(diags_, Msg::kOpenComment, word_range({file, open_comment, 0}, 0));
     return clean;
   }
-  void keep(const std::string& path, const std::string& text) {
+  void keep(const std::string& path, const std::string& text, SourceRange included_from) {
     FileId id = sources_.find(path);
     if (!id) id = sources_.add(path, text);
+    sources_.set_included_from(id, included_from);
     file_ids_[path] = id;
     texts_[path] = normalise(id, text);
   }
@@ -101,10 +102,11 @@ public:
   // Macro definitions and uses.
   template <class Token, class Tokens> void note_definition(const Token& name, const Tokens& body) {
     note_definition_line(place(name.get_position()));
+    definitions_[std::string(name.get_value().c_str())] = range(name);
     for (const auto& token : body)
       note_definition_line(place(token.get_position()));
   }
-  void note_use(Place start, Place end, size_t name_length);
+  void note_use(Place start, Place end, std::string_view name);
 
   // Appends a token of the output.
   void emit(Place place, std::string_view text, bool is_pragma);
@@ -126,7 +128,8 @@ private:
   std::map<std::string, std::string> texts_; // included files, normalised
   size_t include_count_ = 0, expansion_count_ = 0;
   std::set<std::pair<FileId, size_t>> definition_lines_;
-  Place use_start_, use_end_; // the outermost macro call being expanded
+  std::map<std::string, SourceRange, std::less<>> definitions_; // of macros, the newest of each name
+  Place use_start_, use_end_;                                   // the outermost macro call being expanded
   size_t use_length_ = 0;
   Place next_;             // where a character directly behind the last one would be
   FileId column_file_ = 0; // real_column's memory: what was found last
@@ -161,13 +164,13 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
     std::optional<std::string> text = options_.read(path);
     if (!text) continue;
     out_.dependencies.push_back({path, system});
-    keep(path, *text);
+    keep(path, *text, where);
     return true;
   }
   for (const EmbeddedText& header : options_.standard_headers) {
     if (header.name != name) continue;
     path = fmt::format("{}{}", kStandardFolder, name); // no file: no dependency either
-    if (!texts_.contains(path)) keep(path, std::string(header.text));
+    if (!texts_.contains(path)) keep(path, std::string(header.text), where);
     return true;
   }
   std::vector<std::string> named; // each once
@@ -181,7 +184,7 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
   return false;
 }
 
-void State::note_use(Place start, Place end, size_t name_length) {
+void State::note_use(Place start, Place end, std::string_view name) {
   if (++expansion_count_ > kMaxExpansions) {
     report(diags_, Msg::kTooManyExpansions, word_range(use_start_, use_length_), kMaxExpansions);
     throw GiveUp{};
@@ -192,7 +195,9 @@ void State::note_use(Place start, Place end, size_t name_length) {
   if (inside_arguments) return;
   use_start_ = start;
   use_end_ = end;
-  use_length_ = name_length;
+  use_length_ = name.size();
+  if (auto it = definitions_.find(name); it != definitions_.end() && it->second.file)
+    out_.expansions.push_back({it->first, word_range(use_start_, use_length_), it->second});
 }
 
 // Wave goes on counting columns over a line's final backslash: find the token in its line.
@@ -291,13 +296,13 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
                                      const Container&, const Token& call, const std::vector<Container>&,
                                      const Iterator&, const Iterator& end) {
     state->note_use(state->place(call.get_position()), state->place(end->get_position()),
-                    call.get_value().size());
+                    call.get_value().c_str());
     return false;
   }
   template <class Context, class Token, class Container>
   bool expanding_object_like_macro(const Context&, const Token&, const Container&, const Token& call) {
     Place start = state->place(call.get_position());
-    state->note_use(start, start, call.get_value().size());
+    state->note_use(start, start, call.get_value().c_str());
     return false;
   }
   template <class Context, class Exception> void throw_exception(const Context&, const Exception& e) {

@@ -42,9 +42,16 @@ struct Piece {
       true; ///< the following characters stand side by side in the source too; false: all belong to `at`
 };
 
+/// A use of a macro, and where the macro is defined.
+struct Expansion {
+  std::string macro;
+  slvm::SourceRange use, definition;
+};
+
 struct PreprocessedText {
   std::string text;
   std::vector<Piece> pieces;            ///< by offset
+  std::vector<Expansion> expansions;    ///< the outermost ones
   std::vector<Dependency> dependencies; ///< files included, in order of first inclusion
 };
 

@@ -103,7 +103,8 @@ void Checker::report_unknown_function(const CallExpr& call) {
   if (near.empty())
     report(diags_, Msg::kUnknownFunction, call.name_range, call.name);
   else
-    report(diags_, Msg::kUnknownFunctionNear, call.name_range, call.name, near);
+    report(diags_, Msg::kUnknownFunctionNear, call.name_range, call.name, near)
+        .fixits.push_back({call.name_range, std::string(near)});
 }
 
 void Checker::report_no_candidate(const CallExpr& call, const std::vector<Candidate>& all,

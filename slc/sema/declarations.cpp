@@ -125,8 +125,15 @@ void Checker::declare(Variable& v) {
 
 void Checker::declare_parameter(Variable& v, const Shader& shader) {
   check_array_length(v);
-  if (!v.init) report(diags_, Msg::kNoDefault, v.where, v.name, shader.name);
-  if (v.array_length == kOpenArray && v.init) report(diags_, Msg::kArrayLengthMissing, v.where, v.name);
+  if (v.array_length == kOpenArray) report(diags_, Msg::kArrayLengthMissing, v.where, v.name);
+  if (!v.init) {
+    bool text = v.type == Type::kString;
+    report(diags_, Msg::kNoDefault, v.where, v.name, shader.name, text ? "\"\"" : "0");
+    if (text)
+      v.init = std::make_unique<StringExpr>(v.where);
+    else
+      v.init = std::make_unique<NumberExpr>(v.where);
+  }
   check_initialiser(v);
   declare(v);
 }

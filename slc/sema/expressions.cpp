@@ -55,7 +55,7 @@ void Checker::report_unknown_variable(std::string_view name, SourceRange where) 
   if (near.empty())
     report(diags_, Msg::kUnknownVariable, where, name);
   else
-    report(diags_, Msg::kUnknownVariableNear, where, name, near);
+    report(diags_, Msg::kUnknownVariableNear, where, name, near).fixits.push_back({where, std::string(near)});
 }
 
 // The variable a name means here; null after an error.

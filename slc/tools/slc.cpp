@@ -4,6 +4,7 @@
 #include "slc/ast/print.h"
 #include "slc/compiler.h"
 #include "slc/tools/dependency_file.h"
+#include "slc/tools/diagnostics_json.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/disasm.h"
 #include "slvm/format/slo.h"
@@ -174,7 +175,10 @@ int Run::emit(const std::string& path, std::string_view bytes) {
 }
 
 void Run::print_diagnostics() {
-  fmt::print(stderr, "{}", slvm::format_diagnostics(diags_, sources_, isatty(STDERR_FILENO) != 0));
+  if (options_.json)
+    fmt::print(stderr, "{}", slc::diagnostics_json(diags_, sources_));
+  else
+    fmt::print(stderr, "{}", slvm::format_diagnostics(diags_, sources_, isatty(STDERR_FILENO) != 0));
 }
 
 } // namespace

@@ -121,6 +121,12 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
   app.add_flag("--lintpoint", f.lintpoint, "-lintpoint: only of mixed points and vectors");
   app.add_flag("--lintspace", f.lintspace, "-lintspace: only of mixed spaces");
   app.add_flag("--strict", f.strict, "-strict: all warnings");
+  app.add_option_function<std::string>(
+         "--diagnostics", [&](const std::string& form) { o.json = form == "json"; },
+         "Form of messages: text, or json, an object a line (docs/diagnostics-schema.md)")
+      ->check(CLI::IsMember({"text", "json"}));
+  app.add_option("--error-limit", o.diagnostics.error_limit,
+                 "Show so many errors of a file at most (20); 0: all");
   app.add_flag("-q", o.quiet, "Do not print the names of the files written");
   app.add_flag("-v", o.verbose, "Print what is being compiled");
   app.add_flag("--version", f.version, "Print the version");

@@ -1,8 +1,8 @@
 // Differences between neighbours on the grid: what derivatives and filter regions are made of.
 //
-// Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes beside others that
-// have none) one-sided; 0 where none does, and for all of a grid without extent in that direction. RISpec 3.2 leaves the
-// scheme open; this is PRMan's default ("derivatives" "centered" 1).
+// Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes
+// beside others that have none) one-sided; 0 where none does, and for all of a grid without extent in that
+// direction. RISpec 3.2 leaves the scheme open; this is PRMan's default ("derivatives" "centered" 1).
 #pragma once
 
 #include "slvm/exec/grid_ops.h"

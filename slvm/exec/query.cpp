@@ -8,8 +8,10 @@
 namespace slvm {
 
 Query::Query(const GridCall& c, size_t name_operand)
-    : call(c), run(c.run), found(c.operands[0].planes), out(c.operands[1]), before(c.operands[name_operand + 1]),
-      name(run.state.machine.strings().text(std::bit_cast<uint32_t>(*c.operands[name_operand].planes.data))) {}
+    : call(c), run(c.run), found(c.operands[0].planes), out(c.operands[1]),
+      before(c.operands[name_operand + 1]),
+      name(run.state.machine.strings().text(std::bit_cast<uint32_t>(*c.operands[name_operand].planes.data))) {
+}
 
 void Query::copy(const Operand& from) const {
   const Operand& to = out.planes;

@@ -1,5 +1,5 @@
-// Calls that ask for something by name and store it in a variable: messages, attributes, options, facts. The result is 1
-// where it is found with the variable's type; else 0, and the variable keeps its value.
+// Calls that ask for something by name and store it in a variable: messages, attributes, options, facts. The
+// result is 1 where it is found with the variable's type; else 0, and the variable keeps its value.
 #pragma once
 
 #include "slvm/exec/grid_ops.h"
@@ -8,8 +8,8 @@
 namespace slvm {
 
 struct Query {
-  /// Operands: result, value stored, what is read up to the name at `name_operand`, value before. An array is stored and
-  /// read in place.
+  /// Operands: result, value stored, what is read up to the name at `name_operand`, value before. An array is
+  /// stored and read in place.
   explicit Query(const GridCall& call, size_t name_operand = 2);
 
   /// Of the variable.

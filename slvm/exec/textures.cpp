@@ -1,7 +1,9 @@
-// texture(), environment(), shadow(), textureinfo(): arguments become a TextureLookup, which the renderer answers.
+// texture(), environment(), shadow(), textureinfo(): arguments become a TextureLookup, which the renderer
+// answers.
 //
-// The region a lookup covers (RISpec 3.2, 15.7): with one position, what it moves by from one point of the grid to the next;
-// with four, the quadrilateral between them. "width" scales it, "blur" is the renderer's to add.
+// The region a lookup covers (RISpec 3.2, 15.7): with one position, what it moves by from one point of the
+// grid to the next; with four, the quadrilateral between them. "width" scales it, "blur" is the renderer's to
+// add.
 #include "slvm/exec/differences.h"
 #include "slvm/exec/query.h"
 

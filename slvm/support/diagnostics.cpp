@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace slvm {
 
 Diagnostic& Diagnostics::error(SourceRange where, std::string text) {
   ++error_count_;
   scrap_ = {};
-  if (error_count_ > error_limit) return scrap_;
-  list_.push_back({Severity::kError, where, std::move(text), "", {}});
+  if (error_limit && error_count_ > error_limit) return scrap_;
+  list_.push_back({Severity::kError, where, std::move(text), "", {}, {}});
   return list_.back();
 }
 
@@ -22,7 +23,7 @@ Diagnostic& Diagnostics::warning(SourceRange where, std::string_view name, std::
     d.warning_name = fmt::format("error={}", name);
     return d;
   }
-  list_.push_back({Severity::kWarning, where, std::move(text), std::string(name), {}});
+  list_.push_back({Severity::kWarning, where, std::move(text), std::string(name), {}, {}});
   return list_.back();
 }
 
@@ -92,12 +93,34 @@ void append_location(std::string& out, SourceRange r, const SourceManager& sourc
   out += c.off;
 }
 
+// What replaces the text above it.
+void append_fixits(std::string& out, const Diagnostic& d, const Colours& c) {
+  constexpr size_t kMargin = 6; // as wide as the line numbers of source lines
+  for (const FixIt& fix : d.fixits) {
+    if (fix.where.file != d.where.file || fix.where.line != d.where.line || fix.where.column == 0) continue;
+    out += fmt::format("{}| {}{}{}{}\n", std::string(kMargin, ' '), std::string(fix.where.column - 1, ' '),
+                       c.green, fix.replacement, c.off);
+  }
+}
+
+// The files that lead to `file`, the including line of each.
+void append_include_stack(std::string& out, FileId file, const SourceManager& sources) {
+  std::string_view lead = "In file included from ";
+  for (SourceRange at = sources.included_from(file); at.valid(); at = sources.included_from(at.file)) {
+    out += fmt::format("{}{}:{}:\n", lead, sources.name(at.file), at.line);
+    lead = "                 from ";
+  }
+}
+
 } // namespace
 
 std::string format_diagnostics(const Diagnostics& diags, const SourceManager& sources, bool colour) {
   const Colours& c = colour ? kAnsi : kPlain;
   std::string out;
+  FileId last_file = 0;
   for (const Diagnostic& d : diags.sorted()) {
+    if (d.where.file != std::exchange(last_file, d.where.file))
+      append_include_stack(out, d.where.file, sources);
     append_location(out, d.where, sources, c);
     bool error = d.severity == Severity::kError;
     out += fmt::format("{}{}:{} {}{}{}", error ? c.red : c.magenta, error ? "error" : "warning", c.off,
@@ -105,14 +128,14 @@ std::string format_diagnostics(const Diagnostics& diags, const SourceManager& so
     if (!d.warning_name.empty()) out += fmt::format(" [-W{}]", d.warning_name);
     out += '\n';
     if (d.where.valid()) append_source_line(out, d.where, sources, c);
+    append_fixits(out, d, c);
     for (const Note& note : d.notes) {
       append_location(out, note.where, sources, c);
       out += fmt::format("{}note:{} {}\n", c.cyan, c.off, note.text);
       if (note.where.valid()) append_source_line(out, note.where, sources, c);
     }
   }
-  if (diags.error_count() > diags.error_limit)
-    out += fmt::format("{} more errors not shown\n", diags.error_count() - diags.error_limit);
+  if (uint32_t dropped = diags.errors_dropped()) out += fmt::format("{} more errors not shown\n", dropped);
   return out;
 }
 

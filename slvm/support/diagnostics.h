@@ -5,6 +5,9 @@
 //      12 |     float w = smoothstep(Cs, 0.2, 0.8);
 //         |               ^~~~~~~~~~
 //   note: candidate: float smoothstep(float min, float max, float x)
+//
+// A message about an included file names those that include it, outermost last; a fix that is known for
+// certain stands under the caret.
 #pragma once
 
 #include "slvm/support/source.h"
@@ -24,18 +27,25 @@ struct Note {
   std::string text;
 };
 
+/// A change of the source that mends what the message is about.
+struct FixIt {
+  SourceRange where; ///< what is replaced
+  std::string replacement;
+};
+
 struct Diagnostic {
   Severity severity = Severity::kError;
   SourceRange where;
   std::string text;
   std::string warning_name; // "unused" for -Wunused; empty for errors
   std::vector<Note> notes;
+  std::vector<FixIt> fixits;
 };
 
 /// Collects diagnostics of one run. Not thread-safe: one per compilation.
 class Diagnostics {
 public:
-  /// Errors past this many are counted, not kept.
+  /// Errors past this many are counted, not kept; 0: all are kept.
   uint32_t error_limit = 20;
   bool warnings_are_errors = false;
   bool no_warnings = false;
@@ -52,6 +62,15 @@ public:
 
   bool has_errors() const { return error_count_ > 0; }
   uint32_t error_count() const { return error_count_; }
+  /// Calls f(Diagnostic&) for each of those kept, to add to them.
+  template <class F> void for_each(F&& f) {
+    for (Diagnostic& d : list_)
+      f(d);
+  }
+  /// Errors that were counted only.
+  uint32_t errors_dropped() const {
+    return error_limit && error_count_ > error_limit ? error_count_ - error_limit : 0;
+  }
   /// All kept diagnostics in source order (file order of first report, then line, then column; stable).
   std::vector<Diagnostic> sorted() const;
 

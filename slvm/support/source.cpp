@@ -16,7 +16,7 @@ SourceManager::SourceManager() {
 }
 
 FileId SourceManager::add(std::string name, std::string text) {
-  File file{std::move(name), std::move(text), {}};
+  File file{std::move(name), std::move(text), {}, {}};
   file.line_starts.push_back(0);
   for (size_t i = 0; i < file.text.size(); ++i) {
     bool cr = file.text[i] == '\r', lf = file.text[i] == '\n';

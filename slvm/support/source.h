@@ -34,6 +34,11 @@ public:
   FileId add(std::string name, std::string text);
   /// The id of the file of this name, if it was added.
   FileId find(std::string_view name) const;
+  /// The #include by which a file came in; nowhere for others.
+  void set_included_from(FileId file, SourceRange where) { files_[file].included_from = where; }
+  SourceRange included_from(FileId file) const {
+    return file < files_.size() ? files_[file].included_from : SourceRange{};
+  }
   /// Ids in use are 1 to count() - 1.
   size_t count() const { return files_.size(); }
   std::string_view name(FileId) const;
@@ -45,6 +50,7 @@ private:
   struct File {
     std::string name, text;
     std::deque<uint32_t> line_starts;
+    SourceRange included_from;
   };
   std::deque<File> files_;
 };

@@ -59,3 +59,13 @@ float depth(point p) {
   float z = zcomp(transform("camera", p));
   return (z - clipping[0]) / (clipping[1] - clipping[0]);
 }
+
+/* One-sided surfaces keep their side, but only for the camera: rays may come from anywhere. */
+normal shadingnormal(normal N) {
+  extern vector I;
+  normal Nn = normalize(N);
+  uniform float sides = 2;
+  attribute("Sides", sides);
+  if (sides == 2 || raydepth() > 0) Nn = normal faceforward(vector Nn, I, vector Nn);
+  return Nn;
+}

@@ -69,3 +69,11 @@ float filterstep(float edge; float s1; float s2; uniform float width = 1; unifor
   float w = max(abs(s2 - s1) * width * swidth, 1e-6);
   return stepintegral((0.5 * (s1 + s2) - edge) / w, filter);
 }
+
+/* Powers of colours: compilers of the time took them. */
+color pow(color x; color y) {
+  return color (pow(comp(x, 0), comp(y, 0)), pow(comp(x, 1), comp(y, 1)), pow(comp(x, 2), comp(y, 2)));
+}
+color pow(color x; float y) {
+  return color (pow(comp(x, 0), y), pow(comp(x, 1), y), pow(comp(x, 2), y));
+}

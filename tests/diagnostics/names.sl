@@ -26,5 +26,5 @@ surface s(float roughness = 0.1)
   Ci = roughness(1); // expect-error: is a variable, not a function
 }
 float later(float x) { return x; }
-surface s(float k) { Ci = k; } // expect-error: shader 's' is defined twice // expect-error: needs a default value
+surface s(float k) { Ci = k; } // expect-error: shader 's' is defined twice // expect-warning: parameter 'k' of shader 's' needs a default value; 0 is taken
 float defaulted(float x = 1) { return x; } // expect-error: have no default values

@@ -26,5 +26,5 @@ struct Pair { float a; float b; } // expect-error: 'struct' belongs to RSL 2.0
 surfice three() {} // expect-error: neither a kind of shader
 42; // expect-error: expected a shader or a function, found '42'
 float half(float x) { return x / 2; }
-surface four(float a, = 1) {} // expect-error: expected a name // expect-error: needs a default value
+surface four(float a, = 1) {} // expect-error: expected a name // expect-warning: needs a default value; 0 is taken
 surface five() { Ci = half(0.5); }
