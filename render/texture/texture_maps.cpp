@@ -84,9 +84,13 @@ void set_point_mode(OIIO::TextureOpt& o, const TextureLookup& l, bool is_point) 
 
 } // namespace
 
-TextureMaps::TextureMaps(const Settings& settings)
-    : settings_(settings), system_(std::make_unique<System>(settings)) {}
+TextureMaps::TextureMaps(const Settings& settings) : settings_(settings) {}
 TextureMaps::~TextureMaps() = default;
+
+TextureMaps::System& TextureMaps::system() {
+  std::call_once(system_made_, [&] { system_ = std::make_unique<System>(settings_); });
+  return *system_;
+}
 
 namespace {
 
@@ -140,7 +144,7 @@ Footprint latlong(const TextureLookup& l, size_t i) {
 } // namespace
 
 std::string TextureMaps::texture(const TextureLookup& l) {
-  return look_up(*system_, l, OIIO::TextureOpt::WrapDefault, OIIO::TextureOpt::WrapDefault, [&](size_t i) {
+  return look_up(system(), l, OIIO::TextureOpt::WrapDefault, OIIO::TextureOpt::WrapDefault, [&](size_t i) {
     return Footprint{l.centre[0][i],  l.centre[1][i],  l.along_u[0][i],
                      l.along_u[1][i], l.along_v[0][i], l.along_v[1][i]};
   });
@@ -148,7 +152,7 @@ std::string TextureMaps::texture(const TextureLookup& l) {
 
 std::string TextureMaps::environment(const TextureLookup& l) {
   if (l.map == kRays) return kNoRays;
-  return look_up(*system_, l, OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapClamp,
+  return look_up(system(), l, OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapClamp,
                  [&](size_t i) { return latlong(l, i); });
 }
 
@@ -191,7 +195,7 @@ std::shared_ptr<const ShadowMap> TextureMaps::shadow_map(const std::string& name
   std::lock_guard lock(shadows_mutex_);
   auto [it, is_new] = shadows_.try_emplace(name);
   if (is_new) {
-    std::string path = (*system_)->resolve_filename(name);
+    std::string path = system()->resolve_filename(name);
     it->second.map = read_shadow_map(path.empty() ? name : path, it->second.problem);
   }
   problem = it->second.problem;
@@ -238,8 +242,8 @@ Value matrix_value(const slvm::Matrix4& m) {
 bool TextureMaps::info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world,
                        Value& out) {
   OIIO::ImageSpec spec;
-  if (!(*system_)->get_imagespec(OIIO::ustring(map), 0, spec)) {
-    (*system_)->geterror();
+  if (!system()->get_imagespec(OIIO::ustring(map), 0, spec)) {
+    system()->geterror();
     return false;
   }
   slvm::Matrix4 m;

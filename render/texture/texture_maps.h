@@ -31,10 +31,12 @@ public:
 
 private:
   class System;
+  System& system(); ///< made when it is first asked for
   /// The map, read once; null with the reason.
   std::shared_ptr<const ShadowMap> shadow_map(const std::string& name, std::string& problem);
 
   Settings settings_;
+  std::once_flag system_made_;
   std::unique_ptr<System> system_;
   std::mutex shadows_mutex_;
   struct LoadedShadow {
