@@ -1,0 +1,1 @@
+float from_header(float x) { return x; }
