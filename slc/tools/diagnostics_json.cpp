@@ -28,7 +28,8 @@ std::string diagnostics_json(const slvm::Diagnostics& diags, const slvm::SourceM
     object["message"] = d.text;
     if (!d.warning_name.empty()) object["warning"] = d.warning_name;
     if (d.where.file || d.where.line) object["at"] = place(d.where, sources);
-    for (slvm::SourceRange r = sources.included_from(d.where.file); r.valid(); r = sources.included_from(r.file))
+    for (slvm::SourceRange r = sources.included_from(d.where.file); r.valid();
+         r = sources.included_from(r.file))
       object["included_from"].push_back(place(r, sources));
     for (const slvm::Note& note : d.notes) {
       ordered_json n;
@@ -41,7 +42,8 @@ std::string diagnostics_json(const slvm::Diagnostics& diags, const slvm::SourceM
     // Names and texts may hold bytes that are no UTF-8.
     out += object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
   }
-  if (uint32_t dropped = diags.errors_dropped()) out += ordered_json{{"errors_not_shown", dropped}}.dump() + "\n";
+  if (uint32_t dropped = diags.errors_dropped())
+    out += ordered_json{{"errors_not_shown", dropped}}.dump() + "\n";
   return out;
 }
 

@@ -17,6 +17,7 @@ void optimise(Module& m, int level, const ConstantEvaluator* evaluator) {
       changed |= drop_idle_stores(m);
       changed |= remove_dead(m);
       if (level >= 2 && round == 0) {
+        changed |= reduce_strength(m);
         changed |= merge_light_loops(m);
         changed |= hoist_invariants(m);
         changed |= select_small_ifs(m);

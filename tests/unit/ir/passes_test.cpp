@@ -328,6 +328,45 @@ TEST(MergeLightLoops, NotWhenLanesLeaveEarly) {
   EXPECT_FALSE(merge_light_loops(m));
 }
 
+std::string reduced_power(float exponent) {
+  Sketch s;
+  ValueId power = s.b.call("pow", "float(float x, float y)", {s.read("s"), s.number(exponent)});
+  s.store("Ci", s.b.call("convert", "color(float x)", {power}));
+  Module m = s.finish();
+  bool changed = reduce_strength(m);
+  remove_dead(m);
+  std::string text = body(m);
+  return changed ? text.substr(0, text.find("convert")) : "";
+}
+
+TEST(ReduceStrength, SmallPowersAreProductsAndRoots) {
+  EXPECT_EQ(reduced_power(2),
+            "  %0: float = slot s\n  %1: float = call operator* %0, %0\n  %2: color = call ");
+  EXPECT_EQ(reduced_power(3), "  %0: float = slot s\n  %1: float = call operator* %0, %0\n"
+                              "  %2: float = call operator* %1, %0\n  %3: color = call ");
+  EXPECT_EQ(reduced_power(4), "  %0: float = slot s\n  %1: float = call operator* %0, %0\n"
+                              "  %2: float = call operator* %1, %1\n  %3: color = call ");
+  EXPECT_EQ(reduced_power(0.5f), "  %0: float = slot s\n  %1: float = call sqrt %0\n  %2: color = call ");
+  EXPECT_EQ(reduced_power(2.5f), "");
+  EXPECT_EQ(reduced_power(-1), "");
+}
+
+TEST(ReduceStrength, FloatsNeedNotBeSpread) {
+  Sketch s;
+  ValueId grey = s.b.call("convert", "color(float x)", {s.read("s")});
+  ValueId left = s.binary("operator*", "color(color a, color b)", grey, s.read("Cs"));
+  ValueId right = s.binary("operator*", "color(color a, color b)", left, grey);
+  s.store("Ci", s.binary("operator/", "color(color a, color b)", right, grey));
+  Module m = s.finish();
+  EXPECT_TRUE(reduce_strength(m));
+  remove_dead(m);
+  EXPECT_EQ(
+      body(m),
+      "  %0: float = slot s\n  %1: color = slot Cs\n  %2: color = call operator* %0, %1\n"
+      "  %3: color = call operator* %2, %0\n  %4: color = call operator/ %3, %0\n  store Ci %4\n  yield\n");
+  EXPECT_FALSE(reduce_strength(m));
+}
+
 TEST(SelectSmallIfs, KeepsBranchesWithEffectsOrCostlyCalls) {
   Module stores = varying_branch();
   EXPECT_FALSE(select_small_ifs(stores));
