@@ -64,9 +64,11 @@ inline Float atan_ff(Float y, Float x) {
 }
 
 // ---- Powers: 1 ulp unless said otherwise
-/// pow(0, 0) is 1. Where no real number is the answer (x < 0, y not an integer) it is 0.
+/// pow(0, 0) is 1. Where no real number is the answer (x < 0, y not an integer) it is 0. Squares and roots
+/// are rounded once, as the optimiser's x * x and sqrt(x) are (slvm/ir/passes/strength.cpp).
 inline Float pow_ff(Float x, Float y) {
-  return zero_if((x < 0.0f) & (y != floor(y)), pow(x, y));
+  Float power = select(y == 2.0f, x * x, select(y == 0.5f, sqrt(x), pow(x, y)));
+  return zero_if((x < 0.0f) & (y != floor(y)), power);
 }
 inline Float exp_f(Float x) {
   return exp(x);

@@ -32,7 +32,7 @@ bool remove_dead(Module&);
 bool hoist_invariants(Module&);
 /// Removes stores to variables that only ever store what was there.
 bool drop_idle_stores(Module&);
-/// The same values by cheaper calls: products for small powers, floats instead of triples made of them.
+/// The same values by cheaper calls: products for squares, floats instead of triples made of them.
 bool reduce_strength(Module&);
 /// Makes one loop of two light loops with the same rounds.
 bool merge_light_loops(Module&);

@@ -1,5 +1,6 @@
-// Strength reduction: the same value by a cheaper call. Powers with small constant exponents become products and roots;
-// a float that was spread over three components only to be multiplied or divided by is used as it is.
+// Strength reduction: the same value by a cheaper call. Squares and roots written as powers become products
+// and roots; a float that was spread over three components only to be multiplied or divided by is used as it
+// is.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -31,8 +32,9 @@ public:
       for_each_inst(m_, r, [&](InstId id) {
         for (ValueId v : m_.insts[id].results)
           definition_[v] = id;
+        reduce_power(m_.insts[id]);
+        use_float(m_.insts[id]);
       });
-      visit(r);
     });
     return changed_;
   }
@@ -41,24 +43,11 @@ private:
   static constexpr Type kTriples[] = {Type::kColor, Type::kPoint, Type::kVector, Type::kNormal};
 
   static int row(std::string_view name, std::string_view signature) { return find_shadeop(name, signature); }
-  bool is_call(const Inst& inst, int id) const { return inst.op == Op::kCall && id >= 0 && inst.index == static_cast<uint32_t>(id); }
+  bool is_call(const Inst& inst, int id) const {
+    return inst.op == Op::kCall && id >= 0 && inst.index == static_cast<uint32_t>(id);
+  }
   const Inst* definition(ValueId v) const {
     return v < definition_.size() && definition_[v] != ~0u ? &m_.insts[definition_[v]] : nullptr;
-  }
-
-  void visit(Region& region) {
-    std::vector<InstId> body;
-    for (InstId id : region.body) {
-      for (size_t i = 0; i < m_.insts[id].regions.size(); ++i) {
-        Region nested = std::move(m_.insts[id].regions[i]);
-        visit(nested);
-        m_.insts[id].regions[i] = std::move(nested);
-      }
-      reduce_power(id, body);
-      use_float(m_.insts[id]);
-      body.push_back(id);
-    }
-    region.body = std::move(body);
   }
 
   void become(Inst& inst, int id, std::vector<ValueId> args) {
@@ -67,21 +56,16 @@ private:
     changed_ = true;
   }
 
-  // pow(x, y) for y = 2, 3, 4 and 1/2. `before`: where instructions go that it needs.
-  void reduce_power(InstId id, std::vector<InstId>& before) {
-    if (!is_call(m_.insts[id], pow_)) return;
-    const Inst* exponent = definition(m_.insts[id].args[1]);
+  // The kernel rounds squares and roots once, so that these are the same to the last bit; other powers would
+  // not be.
+  void reduce_power(Inst& inst) {
+    if (!is_call(inst, pow_)) return;
+    const Inst* exponent = definition(inst.args[1]);
     if (!exponent || exponent->op != Op::kConstant) return;
     float y = m_.constants[exponent->index].numbers[0];
-    ValueId x = m_.insts[id].args[0];
-    if (y == 0.5f) return become(m_.insts[id], root_, {x});
-    if (y == 2) return become(m_.insts[id], square_, {x, x});
-    if (y != 3 && y != 4) return;
-    auto square = static_cast<ValueId>(m_.values.size());
-    m_.values.push_back({Type::kFloat, -1, m_.varying(x)});
-    m_.insts.push_back({Op::kCall, static_cast<uint32_t>(square_), m_.insts[id].where, {x, x}, {square}, {}});
-    before.push_back(static_cast<InstId>(m_.insts.size() - 1));
-    become(m_.insts[id], square_, {square, y == 3 ? x : square});
+    ValueId x = inst.args[0];
+    if (y == 2) become(inst, square_, {x, x});
+    if (y == 0.5f) become(inst, root_, {x});
   }
 
   /// The float that was spread into `v`, or kNoValue.
@@ -95,8 +79,7 @@ private:
       bool product = is_call(inst, product_[i]), quotient = is_call(inst, quotient_[i]);
       if (!product && !quotient) continue;
       ValueId left = spread_from(inst.args[0], i), right = spread_from(inst.args[1], i);
-      if (right != kNoValue)
-        return become(inst, product ? scaled_[i] : divided_[i], {inst.args[0], right});
+      if (right != kNoValue) return become(inst, product ? scaled_[i] : divided_[i], {inst.args[0], right});
       if (product && left != kNoValue) return become(inst, scaling_[i], {left, inst.args[1]});
     }
   }
