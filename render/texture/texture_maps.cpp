@@ -25,7 +25,7 @@ public:
     textures_->attribute("max_memory_MB", settings.memory_megabytes);
     textures_->attribute("gray_to_rgb", 0); // absent channels are filled: RISpec 3.2, table 15.1
   }
-  ~System() { OIIO::TextureSystem::destroy(textures_); }
+  ~System() { OIIO::TextureSystem::destroy(textures_, true); } // with its cache, which nobody shares
   System(const System&) = delete;
 
   OIIO::TextureSystem* operator->() const { return textures_; }
