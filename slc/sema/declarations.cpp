@@ -17,15 +17,6 @@ std::string variable_type(const Variable& v) {
   return text;
 }
 
-bool same_formals(const FunctionDef& a, const FunctionDef& b) {
-  if (a.formals.size() != b.formals.size()) return false;
-  for (size_t i = 0; i < a.formals.size(); ++i)
-    if (a.formals[i]->type != b.formals[i]->type ||
-        (a.formals[i]->array_length == kNotArray) != (b.formals[i]->array_length == kNotArray))
-      return false;
-  return true;
-}
-
 } // namespace
 
 void Checker::check_unit() {
@@ -58,8 +49,8 @@ Variable* Checker::global_variable(Global g) {
 }
 
 void Checker::report_duplicate(const FunctionDef& f) {
-  for (const FunctionDef* other : scopes_.functions(f.name))
-    if (other != &f && same_formals(*other, f) && other->result == f.result)
+  for (const FunctionDef* other : scopes_.own_functions(f.name))
+    if (other != &f && same_types(*other, f))
       report(diags_, Msg::kDuplicateFunction, f.where, f.name)
           .notes.push_back({other->where, "the other one"});
 }

@@ -1,6 +1,7 @@
 // Name lookup.
 #include "slc/sema/scope.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace slc {
@@ -34,9 +35,28 @@ std::vector<FunctionDef*> Scopes::functions(std::string_view name) const {
   std::vector<FunctionDef*> found;
   for (size_t i = scopes_.size(); i-- > 0;) {
     auto it = scopes_[i].functions.find(name);
-    if (it != scopes_[i].functions.end()) found.insert(found.end(), it->second.begin(), it->second.end());
+    if (it == scopes_[i].functions.end()) continue;
+    size_t inner = found.size();
+    for (FunctionDef* f : it->second) {
+      auto end = found.begin() + static_cast<std::ptrdiff_t>(inner);
+      if (std::none_of(found.begin(), end, [&](const FunctionDef* other) { return same_types(*other, *f); }))
+        found.push_back(f);
+    }
   }
   return found;
+}
+
+std::vector<FunctionDef*> Scopes::own_functions(std::string_view name) const {
+  auto it = scopes_.back().functions.find(name);
+  return it == scopes_.back().functions.end() ? std::vector<FunctionDef*>() : it->second;
+}
+
+bool same_types(const FunctionDef& a, const FunctionDef& b) {
+  auto same = [](const Variable* x, const Variable* y) {
+    return x->type == y->type && (x->array_length == kNotArray) == (y->array_length == kNotArray);
+  };
+  return a.result == b.result &&
+         std::equal(a.formals.begin(), a.formals.end(), b.formals.begin(), b.formals.end(), same);
 }
 
 bool Scopes::in_function() const {

@@ -8,6 +8,9 @@
 
 namespace slc {
 
+/// The same formals and the same result: no call can tell them apart.
+bool same_types(const FunctionDef& a, const FunctionDef& b);
+
 /// Blocks of the source, innermost last. A function's scope hides the variables (not the functions) around
 /// it.
 class Scopes {
@@ -23,8 +26,11 @@ public:
   Variable* find(std::string_view name) const;
   /// The same beyond the current function: what `extern` refers to.
   Variable* find_outside(std::string_view name) const;
-  /// All functions of that name, innermost scope first.
+  /// All functions of that name, innermost scope first, but those that an inner one with the same types
+  /// hides.
   std::vector<FunctionDef*> functions(std::string_view name) const;
+  /// Those of the innermost scope alone.
+  std::vector<FunctionDef*> own_functions(std::string_view name) const;
   /// In a function, or a nested one: not in a shader's own body.
   bool in_function() const;
 
