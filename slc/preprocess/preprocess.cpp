@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <mutex>
 #include <set>
 
 namespace slc {
@@ -327,6 +328,9 @@ private:
   static bool goes_on(const std::exception&) { return false; }
 };
 
+// A context asks localtime() for __DATE__ and __TIME__, which is not for several threads at once.
+std::mutex wave_mutex;
+
 using Token = wave::cpplexer::lex_token<>;
 using Context =
     wave::context<std::string::iterator, wave::cpplexer::lex_iterator<Token>, ReaderPolicy, Hooks>;
@@ -376,13 +380,16 @@ PreprocessedText preprocess(FileId main, const PreprocessOptions& options, slvm:
   try {
     Hooks hooks;
     hooks.state = &state;
-    Context context(text.begin(), text.end(), kMainName, hooks);
+    std::optional<Context> made;
+    std::unique_lock making(wave_mutex);
+    Context& context = made.emplace(text.begin(), text.end(), kMainName, hooks);
     auto language = wave::support_c99;
     language = wave::enable_emit_pragma_directives(language);
     language = wave::enable_emit_line_directives(language, false);
     language = wave::enable_no_newline_at_end_of_file(language);
     language = wave::enable_no_character_validation(language);
     context.set_language(language);
+    making.unlock();
     context.set_max_include_nesting_depth(2 * kMaxIncludeDepth); // locate() stops earlier
     define_macros(context, options);
     run(context, state);
