@@ -18,7 +18,7 @@ struct TextureOptions {
   std::string_view filter; ///< "box", "disk", "gaussian", "triangle", "catmull-rom"; empty: the map's default
   float samples = 0;       ///< 0: the default of the kind of map
   float fill = 0;          ///< the value of channels the map lacks
-  bool between_levels = false; ///< interpolate between the two nearest levels of a mip-map
+  bool between_levels = true; ///< interpolate between the two nearest levels of a mip-map
 };
 
 /// A lookup for many points. Each has a region over which the map is averaged: the parallelogram about

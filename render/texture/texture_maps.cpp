@@ -68,18 +68,16 @@ OIIO::TextureOpt options_of(const TextureLookup& l) {
   o.interpmode = given.filter == "gaussian" || given.filter == "catmull-rom"
                      ? OIIO::TextureOpt::InterpBicubic
                      : OIIO::TextureOpt::InterpBilinear;
-  o.mipmode = given.between_levels ? OIIO::TextureOpt::MipModeAniso : OIIO::TextureOpt::MipModeDefault;
+  o.mipmode = given.between_levels ? OIIO::TextureOpt::MipModeAniso : OIIO::TextureOpt::MipModeOneLevel;
   if (given.samples >= 1) o.anisotropic = static_cast<int>(std::min(given.samples, 256.0f));
   return o;
 }
 
 // One sample of a point is the texel itself, as z-buffers are read.
 void set_point_mode(OIIO::TextureOpt& o, const TextureLookup& l, bool is_point) {
-  bool texel = is_point && l.options.samples == 1;
-  if (texel) {
-    o.interpmode = OIIO::TextureOpt::InterpClosest;
-    o.mipmode = OIIO::TextureOpt::MipModeNoMIP;
-  }
+  if (!is_point || l.options.samples != 1) return;
+  o.interpmode = OIIO::TextureOpt::InterpClosest;
+  o.mipmode = OIIO::TextureOpt::MipModeNoMIP;
 }
 
 } // namespace
