@@ -28,6 +28,7 @@ std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slv
   for (const Shader& shader : checked.unit.shaders) {
     CompiledShader& compiled = out.emplace_back();
     compiled.module = lower_shader(shader, files);
+    slvm::ir::canonicalise(compiled.module);
     slvm::ir::optimise(compiled.module, options.optimise, options.evaluator);
     settle_defaults(compiled.module);
     slvm::ir::infer_detail(compiled.module);

@@ -99,12 +99,6 @@ public:
     pieces_ = split(strings_.text(std::bit_cast<uint32_t>(*call.operands[first_].planes.data)));
   }
 
-  bool varying() const {
-    for (const GridOperand& o : call_.operands)
-      if (o.planes.step) return true;
-    return false;
-  }
-
   std::string text(size_t lane) {
     std::string out;
     size_t next = first_ + 1;
@@ -157,27 +151,39 @@ namespace grid_ops {
 void print(const GridCall& call) {
   Formatter formatter(call);
   std::string text;
-  if (!formatter.varying())
-    text = formatter.text(0);
-  else
-    mask_for_each(call.run.mask.current(), call.run.points,
-                  [&](size_t lane) { text += formatter.text(lane); });
+  mask_for_each(call.run.mask.current(), call.run.points, [&](size_t lane) { text += formatter.text(lane); });
   if (!text.empty()) call.run.state.services.print(call.run.shading_state(), text);
 }
 
 namespace {
 
-// One message for all points: the text of the first one. The machine folds those of other grids that read the
-// same.
+/// The text of the first point of those that run, and how many run.
+struct First {
+  explicit First(const GridCall& call) {
+    const MaskWord* mask = call.run.mask.current();
+    count = mask_count(mask, call.run.points);
+    if (count == 0) return;
+    size_t lane = 0;
+    while (!mask_test(mask, lane))
+      ++lane;
+    text = Formatter(call).text(lane);
+  }
+  size_t count;
+  std::string text;
+};
+
+// One message for all points. The machine folds those of other grids that read the same.
 void print_message(const GridCall& call, MessageSeverity severity) {
-  const MaskWord* mask = call.run.mask.current();
-  size_t points = call.run.points, count = mask_count(mask, points), first = 0;
-  while (first < points && !mask_test(mask, first))
-    ++first;
-  if (first < points) call.run.report(call.code, severity, Formatter(call).text(first), count);
+  First first(call);
+  if (first.count > 0) call.run.report(call.code, severity, std::move(first.text), first.count);
 }
 
 } // namespace
+
+void print_once(const GridCall& call) {
+  First first(call);
+  if (!first.text.empty()) call.run.state.services.print(call.run.shading_state(), first.text);
+}
 
 void print_error(const GridCall& call) {
   print_message(call, MessageSeverity::kError);

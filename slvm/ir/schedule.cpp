@@ -653,7 +653,7 @@ private:
       --f;
       if (is_loop(frames_[f].inst->op) && level-- == 0) break;
     }
-    const Frame& loop = frames_[f];
+    const Frame loop = frames_[f]; // a copy: what flush() performs opens frames of its own
     if (inst.op == Op::kContinue)
       merge(loop.merge, inst.args, loop.inst->results, true);
     else

@@ -18,6 +18,10 @@ public:
                         std::vector<Constant>& results) const = 0;
 };
 
+/// What must hold before any other pass, so that what a program does depends on no pass: merges that merge
+/// nothing are gone (whether a derivative sees a point's neighbours depends on where a value was made), and
+/// printf is split into what prints for each point and what prints once.
+void canonicalise(Module&);
 /// Replaces calls with constant arguments by their results, and ifs with constant conditions by the branch
 /// taken. `evaluator` may be null: then only the structure is folded.
 bool fold_constants(Module&, const ConstantEvaluator* evaluator);

@@ -1,0 +1,280 @@
+// Random statements and declarations; see program(), at the end, for the whole.
+#include "tests/fuzz/programs/generator.h"
+#include "tests/fuzz/programs/writer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <utility>
+
+namespace slvm::test {
+
+namespace {
+
+constexpr int kDepth = 4;      // of expressions
+constexpr int kNesting = 5;    // of blocks
+constexpr int kMaxStatements = 60;
+
+constexpr Type kVariableTypes[] = {Type::kFloat,  Type::kColor,  Type::kPoint, Type::kVector,
+                                   Type::kNormal, Type::kMatrix, Type::kString};
+
+} // namespace
+
+Type ProgramWriter::some_type() {
+  // Floats are what most programs are about.
+  return choose_.chance(50) ? kVariableTypes[choose_.below(std::size(kVariableTypes))] : Type::kFloat;
+}
+
+void ProgramWriter::line(const std::string& text) {
+  out_.append(static_cast<size_t>(indent_) * 2, ' ');
+  out_ += text;
+  out_ += '\n';
+}
+
+std::vector<const Variable*> ProgramWriter::variables(Type t, bool uniform, bool set, bool arrays) const {
+  std::vector<const Variable*> found;
+  for (const Variable& v : scope_)
+    if (v.type == t && (v.elements > 0) == arrays && (!uniform || v.uniform) && (!set || v.assignable) &&
+        !(set && v.uniform && divergent()) && (!inputs_only_ || v.input))
+      found.push_back(&v);
+  return found;
+}
+
+void ProgramWriter::declaration() {
+  Variable v;
+  v.type = some_type();
+  v.name = fmt::format("{}{}", type_name(v.type)[0], next_name_++);
+  v.uniform = v.type == Type::kString || (!divergent() && choose_.chance(20));
+  std::string type = fmt::format("{}{}", v.uniform && v.type != Type::kString ? "uniform " : "", type_name(v.type));
+  if (v.type != Type::kString && choose_.chance(20)) {
+    v.elements = 1 + static_cast<int>(choose_.below(5));
+    std::string values;
+    for (int i = 0; i < v.elements; ++i)
+      values += (i ? ", " : "") + expression(v.type, 2, v.uniform);
+    line(fmt::format("{} {}[{}] = {{{}}};", type, v.name, v.elements, values));
+  } else {
+    line(fmt::format("{} {} = {};", type, v.name, expression(v.type, kDepth, v.uniform)));
+  }
+  // Strings that a condition could set at some points only would be varying.
+  v.assignable = v.type != Type::kString;
+  scope_.push_back(v);
+}
+
+void ProgramWriter::assignment() {
+  Type t = some_type();
+  bool array = choose_.chance(25);
+  std::vector<const Variable*> targets = variables(t, false, true, array);
+  if (targets.empty()) targets = variables(t = Type::kFloat, false, true, array = false);
+  if (targets.empty()) return;
+  const Variable v = *one_of(targets);
+  constexpr const char* kOperators[] = {"=", "+=", "-=", "*=", "/="};
+  const char* op = kOperators[choose_.below(std::size(kOperators))];
+  // What the operator gives must be of the variable's type.
+  if (t == Type::kPoint || t == Type::kNormal) op = "=";
+  if (t == Type::kMatrix && (op[0] == '+' || op[0] == '-')) op = "=";
+  std::string place = array ? element(v, v.uniform ? 0 : 2) : v.name;
+  line(fmt::format("{} {} {};", place, op, expression(t, kDepth, v.uniform)));
+}
+
+void ProgramWriter::if_statement() {
+  bool uniform = choose_.chance(25);
+  line(fmt::format("if ({}) {{", condition(3, uniform)));
+  divergence_ += !uniform;
+  block(1 + static_cast<int>(choose_.below(3)));
+  if (choose_.chance(50)) {
+    line("} else {");
+    block(1 + static_cast<int>(choose_.below(3)));
+  }
+  line("}");
+  divergence_ -= !uniform;
+}
+
+// A counter that nothing else sets ends each loop.
+void ProgramWriter::loop() {
+  Variable counter{fmt::format("i{}", next_name_++), Type::kFloat, 0, false, false};
+  bool uniform = !divergent() && choose_.chance(30);
+  size_t rounds = 1 + choose_.below(5);
+  std::string bound = uniform ? std::to_string(rounds)
+                              : fmt::format("min({}, {})", rounds, expression(Type::kFloat, 2, false));
+  bool is_for = choose_.chance(50);
+  std::string more = uniform || choose_.chance(70) ? "" : " && " + condition(2, false);
+  line(fmt::format("{}float {} = 0;", uniform ? "uniform " : "", counter.name));
+  if (is_for) {
+    line(fmt::format("for ({0} = 0; {0} < {1}{2}; {0} += 1) {{", counter.name, bound, more));
+  } else {
+    line(fmt::format("while ({} < {}{}) {{", counter.name, bound, more));
+    line(fmt::format("  {} += 1;", counter.name));
+  }
+  // A break or continue under a varying condition makes the rest of any loop divergent.
+  bool jumps = !uniform || !more.empty() || choose_.chance(50);
+  counter.uniform = !jumps;
+  without_jumps_ += !jumps;
+  divergence_ += jumps;
+  scope_.push_back(counter);
+  ++loops_;
+  block(1 + static_cast<int>(choose_.below(4)));
+  --loops_;
+  divergence_ -= jumps;
+  without_jumps_ -= !jumps;
+  line("}");
+}
+
+void ProgramWriter::jump() {
+  if (in_function_ && choose_.chance(30)) {
+    line(returns_ == Type::kVoid ? "return;" : fmt::format("return {};", expression(returns_, 2, false)));
+    return;
+  }
+  if (loops_ == 0 || without_jumps_ > 0) return assignment();
+  size_t levels = 1 + choose_.below(static_cast<size_t>(loops_));
+  std::string level = levels > 1 ? fmt::format(" {}", levels) : "";
+  line(fmt::format("if ({}) {}{};", condition(2, false), choose_.chance(50) ? "continue" : "break", level));
+}
+
+void ProgramWriter::illuminance() {
+  if (in_illuminance_ || in_function_ || loops_ > 0) return assignment();
+  const char* category = choose_.chance(30) ? "\"key\", " : choose_.chance(20) ? "\"-key\", " : "";
+  if (choose_.chance(50))
+    line(fmt::format("illuminance ({}{}, {}, {}) {{", category, expression(Type::kPoint, 2, false),
+                     expression(Type::kVector, 2, false), expression(Type::kFloat, 2, false)));
+  else
+    line(fmt::format("illuminance ({}{}) {{", category, expression(Type::kPoint, 2, false)));
+  in_illuminance_ = true;
+  ++divergence_;
+  scope_.push_back({"Cl", Type::kColor, 0, false, false});
+  scope_.push_back({"L", Type::kVector, 0, false, false});
+  ++loops_;
+  block(1 + static_cast<int>(choose_.below(4)));
+  --loops_;
+  --divergence_;
+  in_illuminance_ = false;
+  line("}");
+  // Cl and L end with the loop: block() restores the scope only to its own beginning.
+  std::erase_if(scope_, [](const Variable& v) { return v.name == "Cl" || v.name == "L"; });
+}
+
+void ProgramWriter::print() {
+  // Some texts only: a print in every round of every point would be most of the work.
+  if (loops_ > 0 || in_function_) return assignment();
+  line(fmt::format("printf(\"%f %c %s\\n\", {}, {}, {});", expression(Type::kFloat, 2, false),
+                   expression(Type::kColor, 2, false), expression(Type::kString, 2, true)));
+}
+
+void ProgramWriter::call_statement() {
+  std::vector<ShadeopId> known = rows(Type::kVoid, false);
+  std::vector<const Function*> fitting;
+  for (const Function& f : functions_)
+    if (f.result == Type::kVoid) fitting.push_back(&f);
+  std::string text;
+  if (!fitting.empty() && choose_.chance(60)) {
+    text = call(*one_of(fitting), kDepth);
+  } else {
+    ShadeopId id = one_of(known);
+    std::vector<std::string> args;
+    if (arguments(id, 3, false, args)) text = fmt::format("{}({})", shadeop(id).name, fmt::join(args, ", "));
+  }
+  if (text.empty()) return assignment();
+  line(text + ";");
+}
+
+void ProgramWriter::statement() {
+  if (statements_left_-- <= 0 || choose_.at_end()) return;
+  bool deep = nesting_ >= kNesting;
+  switch (choose_.below(13)) {
+  case 0:
+  case 1:
+  case 2: return assignment();
+  case 3:
+  case 4: return declaration();
+  case 5:
+  case 6: return deep ? assignment() : if_statement();
+  case 7:
+  case 8: return deep || loops_ > 2 ? assignment() : loop();
+  case 9: return jump();
+  case 10: return call_statement();
+  case 11: return deep ? assignment() : illuminance();
+  case 12: return print();
+  }
+}
+
+void ProgramWriter::block(int statements) {
+  size_t known = scope_.size();
+  ++indent_;
+  ++nesting_;
+  for (int i = 0; i < statements; ++i)
+    statement();
+  --nesting_;
+  --indent_;
+  scope_.resize(std::min(known, scope_.size()));
+}
+
+void ProgramWriter::function(const std::string& name) {
+  Function f{name, choose_.chance(30) ? Type::kVoid : some_type(), {}};
+  if (f.result == Type::kString) f.result = Type::kFloat;
+  std::string formals;
+  for (size_t i = choose_.below(4); i > 0; --i) {
+    Variable v{fmt::format("a{}", next_name_++), some_type(), 0, false, false};
+    v.uniform = v.type == Type::kString || choose_.chance(15);
+    if (!v.uniform && choose_.chance(40)) v.assignable = true;
+    const char* class_of = v.assignable ? "output " : v.uniform && v.type != Type::kString ? "uniform " : "";
+    formals += fmt::format("{}{}{} {}", formals.empty() ? "" : "; ", class_of, type_name(v.type), v.name);
+    f.formals.push_back(v);
+  }
+  line(fmt::format("{} {}({}) {{", type_name(f.result), name, formals));
+  std::vector<Variable> outside = std::exchange(scope_, f.formals);
+  in_function_ = true;
+  returns_ = f.result;
+  ++divergence_; // a return under a varying condition makes the rest divergent
+  block(1 + static_cast<int>(choose_.below(5)));
+  scope_ = f.formals;
+  if (f.result != Type::kVoid) line(fmt::format("  return {};", expression(f.result, 3, false)));
+  --divergence_;
+  in_function_ = false;
+  scope_ = std::move(outside);
+  line("}");
+  functions_.push_back(f);
+}
+
+std::string ProgramWriter::program(bool pointwise) {
+  pointwise_ = pointwise;
+  statements_left_ = kMaxStatements;
+  for (size_t i = choose_.below(4); i > 0; --i)
+    function(fmt::format("fn{}", i));
+  line("surface t(");
+  line("  float pf = 0.5; uniform float pu = 3; color pc = color (0.2, 0.4, 0.8); string ps = \"abc\";");
+  line("  varying float pv = 0.25; float pa[3] = {1, -2, 0.5};");
+  line("  output varying float of = 0; output varying color oc = 0; output varying point op = 0;");
+  line("  output varying vector ov = 0; output varying normal on = 0; output varying matrix om = 1;");
+  line("  output varying float oa[3] = {0, 0, 0};) {");
+  auto add = [&](const char* name, Type t, bool uniform, bool assignable, int elements = 0) {
+    scope_.push_back({name, t, elements, uniform, assignable, !assignable && elements == 0});
+  };
+  for (const char* name : {"pv", "s", "t"})
+    add(name, Type::kFloat, false, false);
+  add("pf", Type::kFloat, true, false);
+  add("pu", Type::kFloat, true, false);
+  add("pc", Type::kColor, true, false);
+  add("ps", Type::kString, true, false);
+  add("pa", Type::kFloat, true, false, 3);
+  add("P", Type::kPoint, false, false);
+  add("N", Type::kNormal, false, false);
+  add("of", Type::kFloat, false, true);
+  add("oc", Type::kColor, false, true);
+  add("op", Type::kPoint, false, true);
+  add("ov", Type::kVector, false, true);
+  add("on", Type::kNormal, false, true);
+  add("om", Type::kMatrix, false, true);
+  add("oa", Type::kFloat, false, true, 3);
+  add("Ci", Type::kColor, false, true);
+  add("Oi", Type::kColor, false, true);
+  block(20);
+  line("}");
+  return std::move(out_);
+}
+
+RandomProgram random_program(Choices& choices) {
+  RandomProgram p;
+  p.pointwise = choices.below(2) == 0;
+  p.source = ProgramWriter(choices).program(p.pointwise);
+  return p;
+}
+
+} // namespace slvm::test
