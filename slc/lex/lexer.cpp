@@ -81,7 +81,8 @@ private:
   void push(Token token);
   Token make(TokenKind kind, size_t begin) const;
   SourceRange range(size_t begin, size_t end) const;
-  bool dot_is_operator() const;
+  bool after_operand() const;
+  bool is_decrement(size_t at) const;
 
   const PreprocessedText& input_;
   std::string_view text_;
@@ -136,7 +137,7 @@ bool Lexer::next_token() {
   bool line_start = std::exchange(line_start_, false);
   if (c == '#' && line_start)
     lex_pragma();
-  else if (is_digit(c) || (c == '.' && is_digit(peek(1)) && !dot_is_operator()))
+  else if (is_digit(c) || (c == '.' && is_digit(peek(1)) && !after_operand()))
     lex_number();
   else if (is_name_start(c))
     lex_name();
@@ -147,7 +148,7 @@ bool Lexer::next_token() {
   return true;
 }
 
-bool Lexer::dot_is_operator() const {
+bool Lexer::after_operand() const {
   if (out_.tokens.empty()) return false;
   const Token& last = out_.tokens.back();
   return last.kind == TokenKind::kNumber || last.kind == TokenKind::kRightParen ||
@@ -269,10 +270,21 @@ size_t Lexer::take_escape(std::string& value) {
   return found == std::string_view::npos ? 0 : 1;
 }
 
+// The language has no `--`: `a--b` and `--1` are two signs. Only where C would mean a decrement it is one
+// token, for the message.
+bool Lexer::is_decrement(size_t at) const {
+  const size_t next = text_.find_first_not_of(" \t\n", at + 2);
+  if (next == std::string_view::npos) return true;
+  const char c = text_[next];
+  if (is_digit(c) || c == '.' || c == '(') return false;
+  return !(is_name_start(c) && after_operand());
+}
+
 void Lexer::lex_punctuator() {
   size_t begin = at_;
   for (const Punctuator& p : kPunctuators) {
     if (text_.substr(at_, p.text.size()) != p.text) continue;
+    if (p.text == "--" && !is_decrement(at_)) continue;
     at_ += p.text.size();
     push(make(p.kind, begin));
     return;

@@ -30,7 +30,7 @@ struct GridCall {
 
 using GridOp = void (*)(const GridCall&);
 
-#define SHADEOP(name, signature, kernel, flags, doc)
+#define SHADEOP(name, signature, kernel, flags, ulps, doc)
 #define RSLOP(name, signature, flags, doc)
 #define PENDING(name, signature, flags, doc)
 namespace grid_ops {

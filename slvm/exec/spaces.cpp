@@ -84,7 +84,7 @@ void project_vector(const GridCall& call) {
 
 GridOp grid_op(ShadeopId id) {
   static constexpr GridOp kOps[] = {
-#define SHADEOP(name, signature, kernel, flags, doc) nullptr,
+#define SHADEOP(name, signature, kernel, flags, ulps, doc) nullptr,
 #define GRIDOP(name, signature, function, flags, doc) grid_ops::function,
 #define RSLOP(name, signature, flags, doc) nullptr,
 #define PENDING(name, signature, flags, doc) nullptr,

@@ -9,13 +9,13 @@ namespace slvm {
 namespace {
 
 constexpr ShadeopInfo make_row(std::string_view name, std::string_view signature, ShadeopKind kind,
-                               uint32_t flags, std::string_view doc) {
-  return {name, signature, kind, flags, doc, parse_signature(signature)};
+                               uint32_t flags, std::string_view doc, double ulps = -1) {
+  return {name, signature, kind, flags, doc, ulps, parse_signature(signature)};
 }
 
 constexpr ShadeopInfo kRows[] = {
-#define SHADEOP(name, signature, kernel, flags, doc)                                                         \
-  make_row(name, signature, ShadeopKind::kKernel, flags, doc),
+#define SHADEOP(name, signature, kernel, flags, ulps, doc)                                                   \
+  make_row(name, signature, ShadeopKind::kKernel, flags, doc, ulps),
 #define GRIDOP(name, signature, function, flags, doc)                                                        \
   make_row(name, signature, ShadeopKind::kGrid, flags, doc),
 #define RSLOP(name, signature, flags, doc) make_row(name, signature, ShadeopKind::kRsl, flags, doc),

@@ -46,6 +46,9 @@ struct ShadeopInfo {
   ShadeopKind kind;
   uint32_t flags;
   std::string_view doc;
+  /// Of kernels: the greatest error of a result, in units in the last place of its own magnitude or, where
+  /// terms cancel, of the terms'. 0: exact. Tests hold every kernel to it. Others: -1.
+  double ulps;
   Signature signature;
 };
 

@@ -11,7 +11,7 @@ namespace slvm {
 // Every kernel's name is declared here with a type of its own. Inside a family's namespace a name finds the
 // kernel if the family defines it, and otherwise this declaration, which says "look elsewhere".
 struct Elsewhere {};
-#define SHADEOP(name, signature, kernel, flags, doc) Elsewhere kernel();
+#define SHADEOP(name, signature, kernel, flags, ulps, doc) Elsewhere kernel();
 #define GRIDOP(name, signature, function, flags, doc)
 #define RSLOP(name, signature, flags, doc)
 #define PENDING(name, signature, flags, doc)

@@ -13,7 +13,7 @@ namespace slvm {
 
 /// Rows of shadeops.def.
 inline constexpr size_t kShadeopCount = 0
-#define SHADEOP(name, signature, kernel, flags, doc) +1
+#define SHADEOP(name, signature, kernel, flags, ulps, doc) +1
 #define GRIDOP(name, signature, function, flags, doc) +1
 #define RSLOP(name, signature, flags, doc) +1
 #define PENDING(name, signature, flags, doc) +1

@@ -1,6 +1,6 @@
-// A stream of decisions read from bytes: whoever makes something at random asks it, so that the bytes stand for
-// what was made. A fuzzer can mutate them, and less of them makes less: 0, and whatever follows the end, is
-// always the simplest choice.
+// A stream of decisions read from bytes: whoever makes something at random asks it, so that the bytes stand
+// for what was made. A fuzzer can mutate them, and less of them makes less: 0, and whatever follows the end,
+// is always the simplest choice.
 #pragma once
 
 #include <cstddef>

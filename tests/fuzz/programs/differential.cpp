@@ -139,7 +139,8 @@ private:
     options.optimise = level;
     options.evaluator = evaluator_.get();
     std::vector<std::vector<std::byte>> out;
-    for (const slc::CompiledShader& s : compiler_.compile(sources.add("t.sl", source), options, sources, diags))
+    for (const slc::CompiledShader& s :
+         compiler_.compile(sources.add("t.sl", source), options, sources, diags))
       out.push_back(write_slo(s.program));
     if (diags.has_errors()) error = format_diagnostics(diags, sources);
     return out;
@@ -150,7 +151,8 @@ private:
     auto shader = machine.load(slo);
     if (!shader) return error = shader.error(), nullptr;
     std::vector<ParamValue> params;
-    if ((*shader)->name() == "t") params = {{"pf", {Type::kFloat, 0, {1.5f}, {}}}, {"ps", {Type::kString, 0, {}, {"xay"}}}};
+    if ((*shader)->name() == "t")
+      params = {{"pf", {Type::kFloat, 0, {1.5f}, {}}}, {"ps", {Type::kString, 0, {}, {"xay"}}}};
     auto instance = machine.instantiate(*shader, params, {.may_vary = {"pv"}});
     if (!instance) return error = instance.error(), nullptr;
     return std::move(*instance);

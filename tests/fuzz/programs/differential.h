@@ -1,5 +1,5 @@
-// Runs one program in many ways that must not matter: without and with the optimiser, specialised, in strips of
-// other widths, with poisoned registers, and, if it is pointwise, each point alone.
+// Runs one program in many ways that must not matter: without and with the optimiser, specialised, in strips
+// of other widths, with poisoned registers, and, if it is pointwise, each point alone.
 #pragma once
 
 #include "tests/fuzz/programs/generator.h"

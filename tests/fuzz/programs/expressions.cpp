@@ -8,7 +8,8 @@
 namespace slvm::test {
 
 std::string ProgramWriter::literal(Type t) {
-  constexpr const char* kNumbers[] = {"1", "0", "0.5", "2", "-1", "0.25", "3", "1e-3", "7.5", "-0.125", "1e6", "PI"};
+  constexpr const char* kNumbers[] = {"1", "0",    "0.5", "2",      "-1",  "0.25",
+                                      "3", "1e-3", "7.5", "-0.125", "1e6", "PI"};
   auto number = [&] { return std::string(kNumbers[choose_.below(std::size(kNumbers))]); };
   switch (t) {
   case Type::kFloat: return number();
@@ -47,7 +48,8 @@ std::string ProgramWriter::leaf(Type t, bool uniform) {
 
 std::string ProgramWriter::element(const Variable& v, int depth) {
   // Most of the time within bounds; a constant must be.
-  if (!choose_.chance(55)) return fmt::format("{}[{}]", v.name, choose_.below(static_cast<size_t>(v.elements)));
+  if (!choose_.chance(55))
+    return fmt::format("{}[{}]", v.name, choose_.below(static_cast<size_t>(v.elements)));
   const std::string index = expression(Type::kFloat, depth - 1, v.uniform);
   if (!v.uniform && choose_.chance(25)) return fmt::format("{}[s + {}]", v.name, index);
   return fmt::format("{}[clamp({}, 0, {})]", v.name, index, v.elements - 1);
@@ -65,7 +67,8 @@ std::vector<ShadeopId> ProgramWriter::rows(Type result, bool uniform) const {
     bool is_operator = row.name.starts_with("operator");
     if (s.result != result || row.kind == ShadeopKind::kPending) continue;
     if ((row.flags & kInternal) && !is_operator) continue;
-    constexpr uint32_t kScene = kTexture | kRays | kMessage | kInIlluminance | kReadsState | kLights | kEffect;
+    constexpr uint32_t kScene =
+        kTexture | kRays | kMessage | kInIlluminance | kReadsState | kLights | kEffect;
     bool area = row.name == "area" || row.name == "calculatenormal";
     if ((row.flags & kScene) && !area) continue;
     if (pointwise_ && ((row.flags & kDerivative) || row.name.starts_with("random"))) continue;
@@ -98,7 +101,8 @@ bool ProgramWriter::arguments(ShadeopId id, int depth, bool uniform, std::vector
       out.push_back(v->name);
       continue;
     }
-    size_t times = p.variadic ? (shadeop(id).name == "spline" ? 4 + choose_.below(5) : 1 + choose_.below(3)) : 1;
+    size_t times =
+        p.variadic ? (shadeop(id).name == "spline" ? 4 + choose_.below(5) : 1 + choose_.below(3)) : 1;
     if (p.variadic && p.type == Type::kFloat && s.result == Type::kMatrix) times = 16;
     for (size_t k = 0; k < times; ++k)
       if (p.type == Type::kString && !p.name.empty() && p.name != "a" && p.name != "b" && choose_.chance(90))
@@ -122,7 +126,8 @@ std::string ProgramWriter::call(ShadeopId id, int depth, bool uniform) {
   if (row.name.starts_with("operator")) {
     std::string_view op = row.name.substr(8);
     if (op == "?:") return fmt::format("({} ? {} : {})", args[0], args[1], args[2]);
-    return args.size() == 1 ? fmt::format("({} {})", op, args[0]) : fmt::format("({} {} {})", args[0], op, args[1]);
+    return args.size() == 1 ? fmt::format("({} {})", op, args[0])
+                            : fmt::format("({} {} {})", args[0], op, args[1]);
   }
   return cast(row.signature.result, fmt::format("{}({})", row.name, fmt::join(args, ", ")));
 }

@@ -25,7 +25,7 @@ struct ProgramInput {
   bool varies; ///< as a primitive variable
 };
 inline constexpr ProgramInput kProgramInputs[] = {
-    {"float", "pf", false}, {"uniform float", "pu", false}, {"color", "pc", false},
+    {"float", "pf", false},  {"uniform float", "pu", false}, {"color", "pc", false},
     {"string", "ps", false}, {"varying float", "pv", true},
 };
 

@@ -1,5 +1,5 @@
-// random_programs FIRST COUNT: random programs number FIRST to FIRST + COUNT - 1, run in all ways. Of one that
-// fails it prints a small version. random_programs --show N prints program N.
+// random_programs FIRST COUNT: random programs number FIRST to FIRST + COUNT - 1, run in all ways. Of one
+// that fails it prints a small version. random_programs --show N prints program N.
 #include "tests/fuzz/programs/differential.h"
 
 #include <cstdio>
@@ -29,7 +29,8 @@ int check(unsigned number) {
   const std::string wrong = disagreement(program_of(bytes));
   if (wrong.empty()) return 0;
   const RandomProgram small = program_of(shrink(bytes));
-  std::printf("program %u: %s\n%s%s\n", number, wrong.c_str(), small.source.c_str(), disagreement(small).c_str());
+  std::printf("program %u: %s\n%s%s\n", number, wrong.c_str(), small.source.c_str(),
+              disagreement(small).c_str());
   return 1;
 }
 

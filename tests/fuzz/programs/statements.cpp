@@ -10,8 +10,8 @@ namespace slvm::test {
 
 namespace {
 
-constexpr int kDepth = 4;      // of expressions
-constexpr int kNesting = 5;    // of blocks
+constexpr int kDepth = 4;   // of expressions
+constexpr int kNesting = 5; // of blocks
 constexpr int kMaxStatements = 60;
 
 constexpr Type kVariableTypes[] = {Type::kFloat,  Type::kColor,  Type::kPoint, Type::kVector,
@@ -44,7 +44,8 @@ void ProgramWriter::declaration() {
   v.type = some_type();
   v.name = fmt::format("{}{}", type_name(v.type)[0], next_name_++);
   v.uniform = v.type == Type::kString || (!divergent() && choose_.chance(20));
-  std::string type = fmt::format("{}{}", v.uniform && v.type != Type::kString ? "uniform " : "", type_name(v.type));
+  std::string type =
+      fmt::format("{}{}", v.uniform && v.type != Type::kString ? "uniform " : "", type_name(v.type));
   if (v.type != Type::kString && choose_.chance(20)) {
     v.elements = 1 + static_cast<int>(choose_.below(5));
     std::string values;

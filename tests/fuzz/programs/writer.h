@@ -75,8 +75,8 @@ private:
   int statements_left_ = 40;
   Type returns_ = Type::kVoid;
   bool in_function_ = false, in_illuminance_ = false, pointwise_ = false;
-  /// Writing what a derivative under a condition differentiates: functions of the inputs, which every neighbour
-  /// has. How many neighbours have other values is the optimiser's affair.
+  /// Writing what a derivative under a condition differentiates: functions of the inputs, which every
+  /// neighbour has. How many neighbours have other values is the optimiser's affair.
   bool inputs_only_ = false;
 };
 

@@ -53,8 +53,8 @@ float random_float(Values values, std::mt19937& random) {
 }
 
 uint32_t random_string(std::mt19937& random, StringPool& strings) {
-  static constexpr std::string_view kTexts[] = {"hsv",         "XYZ",         "rgb", "bezier",
-                                                "catmull-rom", "solvelinear", "a+b*"};
+  static constexpr std::string_view kTexts[] = {"hsv",         "XYZ",  "rgb",     "bezier",  "catmull-rom",
+                                                "solvelinear", "a+b*", "bspline", "hermite", "linear"};
   return strings.intern(kTexts[random() % std::size(kTexts)]);
 }
 

@@ -26,59 +26,59 @@ double clamp_as_the_language(double a, double lo, double hi) {
 
 // clang-format off: a row a line
 constexpr Reference kScalars[] = {
-    {"operator+", 2, SL_BINARY(a + b), 0.5},
-    {"operator-", 2, SL_BINARY(a - b), 0.5},
-    {"operator*", 2, SL_BINARY(a * b), 0.5},
-    {"operator/", 2, SL_BINARY(a / b), 0.5},
-    {"operator-", 1, SL_UNARY(-x), 0},
-    {"operator==", 2, SL_BINARY(a == b), 0},
-    {"operator!=", 2, SL_BINARY(a != b), 0},
-    {"operator<", 2, SL_BINARY(a < b), 0},
-    {"operator<=", 2, SL_BINARY(a <= b), 0},
-    {"operator>", 2, SL_BINARY(a > b), 0},
-    {"operator>=", 2, SL_BINARY(a >= b), 0},
-    {"operator&&", 2, SL_BINARY(a != 0 && b != 0), 0},
-    {"operator||", 2, SL_BINARY(a != 0 || b != 0), 0},
-    {"operator!", 1, SL_UNARY(x == 0), 0},
-    {"operator?:", 3, [](Row, In in, Out out) { out[0] = in[0] != 0 ? in[1] : in[2]; }, 0},
-    {"radians", 1, SL_UNARY(x * kPi / 180), 1.5},
-    {"degrees", 1, SL_UNARY(x * 180 / kPi), 1.5},
-    {"sin", 1, SL_UNARY(std::sin(x)), 1, -1e5, 1e5},
-    {"cos", 1, SL_UNARY(std::cos(x)), 1, -1e5, 1e5},
-    {"tan", 1, SL_UNARY(std::tan(x)), 1, -1e5, 1e5},
-    {"asin", 1, SL_UNARY(std::asin(std::clamp(x, -1.0, 1.0))), 1, -1.1, 1.1},
-    {"acos", 1, SL_UNARY(std::acos(std::clamp(x, -1.0, 1.0))), 1, -1.1, 1.1},
-    {"atan", 1, SL_UNARY(std::atan(x)), 1},
-    {"atan", 2, SL_BINARY(std::atan2(a, b)), 1},
-    {"pow", 2, SL_BINARY(a < 0 && b != std::floor(b) ? 0.0 : std::pow(a, b)), 1},
-    {"exp", 1, SL_UNARY(std::exp(x)), 1, -80, 80},
-    {"log", 1, SL_UNARY(std::log(x)), 1, 0, 1e6},
-    {"log", 2, SL_BINARY(std::log(a) / std::log(b)), 3, 0, 100},
-    {"sqrt", 1, SL_UNARY(x < 0 ? 0 : std::sqrt(x)), 0.5},
-    {"inversesqrt", 1, SL_UNARY(x > 0 ? 1 / std::sqrt(x) : 0), 1.5},
+    {"operator+", 2, SL_BINARY(a + b)},
+    {"operator-", 2, SL_BINARY(a - b)},
+    {"operator*", 2, SL_BINARY(a * b)},
+    {"operator/", 2, SL_BINARY(a / b)},
+    {"operator-", 1, SL_UNARY(-x)},
+    {"operator==", 2, SL_BINARY(a == b)},
+    {"operator!=", 2, SL_BINARY(a != b)},
+    {"operator<", 2, SL_BINARY(a < b)},
+    {"operator<=", 2, SL_BINARY(a <= b)},
+    {"operator>", 2, SL_BINARY(a > b)},
+    {"operator>=", 2, SL_BINARY(a >= b)},
+    {"operator&&", 2, SL_BINARY(a != 0 && b != 0)},
+    {"operator||", 2, SL_BINARY(a != 0 || b != 0)},
+    {"operator!", 1, SL_UNARY(x == 0)},
+    {"operator?:", 3, [](Row, In in, Out out) { out[0] = in[0] != 0 ? in[1] : in[2]; }},
+    {"radians", 1, SL_UNARY(x * kPi / 180)},
+    {"degrees", 1, SL_UNARY(x * 180 / kPi)},
+    {"sin", 1, SL_UNARY(std::sin(x)), -1e5, 1e5},
+    {"cos", 1, SL_UNARY(std::cos(x)), -1e5, 1e5},
+    {"tan", 1, SL_UNARY(std::tan(x)), -1e5, 1e5},
+    {"asin", 1, SL_UNARY(std::asin(std::clamp(x, -1.0, 1.0))), -1.1, 1.1},
+    {"acos", 1, SL_UNARY(std::acos(std::clamp(x, -1.0, 1.0))), -1.1, 1.1},
+    {"atan", 1, SL_UNARY(std::atan(x))},
+    {"atan", 2, SL_BINARY(std::atan2(a, b))},
+    {"pow", 2, SL_BINARY(a < 0 && b != std::floor(b) ? 0.0 : std::pow(a, b))},
+    {"exp", 1, SL_UNARY(std::exp(x)), -80, 80},
+    {"log", 1, SL_UNARY(std::log(x)), 0, 1e6},
+    {"log", 2, SL_BINARY(std::log(a) / std::log(b)), 0, 100},
+    {"sqrt", 1, SL_UNARY(x < 0 ? 0 : std::sqrt(x))},
+    {"inversesqrt", 1, SL_UNARY(x > 0 ? 1 / std::sqrt(x) : 0)},
     // Two roundings of the product and the difference, in units of the greater operand.
-    {"mod", 2, SL_BINARY(Expected(a - b * std::floor(a / b), std::max(std::abs(a), std::abs(b)))), 2},
-    {"abs", 1, SL_UNARY(std::abs(x)), 0},
-    {"sign", 1, SL_UNARY(x > 0 ? 1 : x < 0 ? -1 : 0), 0},
-    {"floor", 1, SL_UNARY(std::floor(x)), 0},
-    {"ceil", 1, SL_UNARY(std::ceil(x)), 0},
-    {"round", 1, SL_UNARY(std::floor(x + 0.5)), 0},
-    {"erf", 1, SL_UNARY(std::erf(x)), 1, -4, 4},
-    {"erfc", 1, SL_UNARY(std::erfc(x)), 1.5, -4, 8},
-    {"min", 2, SL_BINARY(std::min(a, b)), 0},
-    {"max", 2, SL_BINARY(std::max(a, b)), 0},
-    {"clamp", 3, [](Row, In in, Out out) { out[0] = clamp_as_the_language(in[0], in[1], in[2]); }, 0},
+    {"mod", 2, SL_BINARY(Expected(a - b * std::floor(a / b), std::max(std::abs(a), std::abs(b))))},
+    {"abs", 1, SL_UNARY(std::abs(x))},
+    {"sign", 1, SL_UNARY(x > 0 ? 1 : x < 0 ? -1 : 0)},
+    {"floor", 1, SL_UNARY(std::floor(x))},
+    {"ceil", 1, SL_UNARY(std::ceil(x))},
+    {"round", 1, SL_UNARY(std::floor(x + 0.5))},
+    {"erf", 1, SL_UNARY(std::erf(x)), -4, 4},
+    {"erfc", 1, SL_UNARY(std::erfc(x)), -4, 8},
+    {"min", 2, SL_BINARY(std::min(a, b))},
+    {"max", 2, SL_BINARY(std::max(a, b))},
+    {"clamp", 3, [](Row, In in, Out out) { out[0] = clamp_as_the_language(in[0], in[1], in[2]); }},
     {"mix", 3,
      [](Row, In in, Out out) {
        double a = (1 - in[2]) * in[0], b = in[2] * in[1];
        out[0] = Expected(a + b, std::abs(in[0]) * (1 + std::abs(in[2])) + std::abs(b));
-     }, 3},
-    {"step", 2, SL_BINARY(b < a ? 0 : 1), 0},
+     }},
+    {"step", 2, SL_BINARY(b < a ? 0 : 1)},
     {"smoothstep", 3,
      [](Row, In in, Out out) {
        double y = (in[2] - in[0]) / (in[1] - in[0]);
        out[0] = in[2] < in[0] ? 0 : in[2] >= in[1] ? 1 : Expected(y * y * (3 - 2 * y), 1);
-     }, 8},
+     }},
     {"convert", 1,
      [](Row s, In in, Out out) {
        for (int i = 0; i < components(s.result); ++i)
@@ -87,8 +87,7 @@ constexpr Reference kScalars[] = {
          for (int i = 0; i < 16; ++i)
            out[i] = i % 5 == 0 ? in[0] : 0;
        if (s.result == Type::kBool) out[0] = in[0] != 0;
-     },
-     0},
+     }},
 }
 ;
 // clang-format on
@@ -111,7 +110,7 @@ std::span<const Reference> scalar_references() {
 const Reference* find_reference(ShadeopId row) {
   const ShadeopInfo& info = shadeop(row);
   int planes = planes_read(info.signature);
-  for (std::span<const Reference> list : {scalar_references(), triple_references()})
+  for (std::span<const Reference> list : {scalar_references(), triple_references(), pattern_references()})
     for (const Reference& r : list)
       if (r.name == info.name && (r.planes_read == planes || r.planes_read < 0)) return &r;
   return nullptr;

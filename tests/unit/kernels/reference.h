@@ -1,8 +1,9 @@
-// What kernels should compute, written independently in scalar double precision, with the error each may
-// have. The bounds here are those the kernels' comments state.
+// What kernels should compute, written independently in scalar double precision. The error each may have
+// stands in the table (ShadeopInfo::ulps).
 #pragma once
 
 #include "slvm/format/shadeop_info.h"
+#include "slvm/support/string_pool.h"
 
 #include <cmath>
 #include <span>
@@ -18,8 +19,14 @@ struct Expected {
   Expected(double v, double m) : value(v), magnitude(std::max(std::abs(v), m)) {}
 };
 
+/// What a reference may ask of the call beside its numbers.
+struct CallFacts : Signature {
+  const StringPool* strings; ///< strings are given by their number in it
+  size_t planes;             ///< how many numbers there are
+};
+
 /// Row: types. In: all components read, in operand order, bools as 0 and 1. Out: all components stored.
-using Row = const Signature&;
+using Row = const CallFacts&;
 using In = const double*;
 using Out = Expected*;
 using ReferenceFunction = void (*)(Row, In in, Out out);
@@ -28,13 +35,13 @@ struct Reference {
   std::string_view name;
   int planes_read; ///< -1: any
   ReferenceFunction function;
-  double ulps;                     ///< greatest error in units in the last place of the magnitude; 0: exact
   double low = -10.0, high = 10.0; ///< range the arguments are drawn from
 };
 
-/// Functions of floats and truth values, and those of triples and matrices.
+/// Functions of floats and truth values; those of triples and matrices; noise, splines and colour spaces.
 std::span<const Reference> scalar_references();
 std::span<const Reference> triple_references();
+std::span<const Reference> pattern_references();
 
 /// The reference of a row, or nullptr: then the kernel has a test of its own, see kTestedElsewhere.
 const Reference* find_reference(ShadeopId row);

@@ -105,14 +105,14 @@ void componentwise(const Signature& s, const double* in, Expected* out, char op)
   }
 }
 
-void multiply(const Signature& s, const double* in, Expected* out) {
+void multiply(Row s, In in, Out out) {
   if (s.params[0].type != Type::kMatrix || s.params[1].type != Type::kMatrix)
     return componentwise(s, in, out, '*');
   Matrix a = matrix(in), b = matrix(in + 16);
   put(out, times(a, b), 4 * largest(a) * largest(b));
 }
 /// The error of an inverse grows with the condition of the matrix.
-void divide(const Signature& s, const double* in, Expected* out) {
+void divide(Row s, In in, Out out) {
   if (s.params[1].type != Type::kMatrix) return componentwise(s, in, out, '/');
   bool by_float = s.params[0].type == Type::kFloat;
   Matrix a = by_float ? identity() : matrix(in), b = matrix(in + (by_float ? 1 : 16)), inverted = inverse(b);
@@ -125,7 +125,7 @@ void divide(const Signature& s, const double* in, Expected* out) {
   put(out, r, std::abs(scale) * largest(a) * norm * (1 + minors * largest(b)));
 }
 
-void fresnel(const Signature& s, const double* in, Expected* out) {
+void fresnel(Row s, In in, Out out) {
   Triple i = triple(in), n = triple(in + 3);
   double eta = in[6], d = dot(i, n), c = std::abs(d), g2 = 1 / (eta * eta) + c * c - 1, kr = 1;
   double size = 1 + dot(i, i) * dot(n, n);
@@ -145,64 +145,55 @@ void fresnel(const Signature& s, const double* in, Expected* out) {
 }
 
 constexpr Reference kTriples[] = {
-    {"operator+", 6, [](Row s, In in, Out out) { componentwise(s, in, out, '+'); }, 0.5},
-    {"operator-", 6, [](Row s, In in, Out out) { componentwise(s, in, out, '-'); }, 0.5},
-    {"operator*", -1, multiply, 3},
-    {"operator/", -1, divide, 64},
+    {"operator+", 6, [](Row s, In in, Out out) { componentwise(s, in, out, '+'); }},
+    {"operator-", 6, [](Row s, In in, Out out) { componentwise(s, in, out, '-'); }},
+    {"operator*", -1, multiply},
+    {"operator/", -1, divide},
     {"operator-", -1,
      [](Row s, In in, Out out) {
        for (int i = 0; i < components(s.result); ++i)
          out[i] = -in[i];
-     },
-     0},
+     }},
     {"operator.", 6,
      [](Row, In in, Out out) {
        out[0] = Expected(dot(triple(in), triple(in + 3)), length(triple(in)) * length(triple(in + 3)));
-     },
-     3},
+     }},
     {"operator^", 6,
      [](Row, In in, Out out) {
        put(out, cross(triple(in), triple(in + 3)), length(triple(in)) * length(triple(in + 3)));
-     },
-     2},
+     }},
     {"operator==", -1,
      [](Row s, In in, Out out) {
        int n = components(s.params[0].type);
        out[0] = std::equal(in, in + n, in + n);
-     },
-     0},
+     }},
     {"operator!=", -1,
      [](Row s, In in, Out out) {
        int n = components(s.params[0].type);
        out[0] = !std::equal(in, in + n, in + n);
-     },
-     0},
+     }},
     {"operator?:", -1,
      [](Row s, In in, Out out) {
        int n = components(s.result);
        for (int i = 0; i < n; ++i)
          out[i] = in[0] != 0 ? in[1 + i] : in[1 + n + i];
-     },
-     0},
-    {"triple", 3, [](Row, In in, Out out) { put(out, triple(in)); }, 0},
+     }},
+    {"triple", 3, [](Row, In in, Out out) { put(out, triple(in)); }},
     {"min", 6,
      [](Row, In in, Out out) {
        for (int i = 0; i < 3; ++i)
          out[i] = std::min(in[i], in[3 + i]);
-     },
-     0},
+     }},
     {"max", 6,
      [](Row, In in, Out out) {
        for (int i = 0; i < 3; ++i)
          out[i] = std::max(in[i], in[3 + i]);
-     },
-     0},
+     }},
     {"clamp", 9,
      [](Row, In in, Out out) {
        for (int i = 0; i < 3; ++i)
          out[i] = in[i] < in[3 + i] ? in[3 + i] : in[i] > in[6 + i] ? in[6 + i] : in[i];
-     },
-     0},
+     }},
     {"mix", -1,
      [](Row s, In in, Out out) {
        for (int i = 0; i < 3; ++i) {
@@ -210,73 +201,66 @@ constexpr Reference kTriples[] = {
          out[i] = Expected((1 - t) * in[i] + t * in[3 + i],
                            (1 + std::abs(t)) * (std::abs(in[i]) + std::abs(in[3 + i])));
        }
-     },
-     3},
-    {"xcomp", 3, [](Row, In in, Out out) { out[0] = in[0]; }, 0},
-    {"ycomp", 3, [](Row, In in, Out out) { out[0] = in[1]; }, 0},
-    {"zcomp", 3, [](Row, In in, Out out) { out[0] = in[2]; }, 0},
+     }},
+    {"xcomp", 3, [](Row, In in, Out out) { out[0] = in[0]; }},
+    {"ycomp", 3, [](Row, In in, Out out) { out[0] = in[1]; }},
+    {"zcomp", 3, [](Row, In in, Out out) { out[0] = in[2]; }},
     {"setxcomp", 4,
      [](Row, In in, Out out) {
        put(out, Triple{in[3], in[1], in[2]});
-     },
-     0},
+     }},
     {"setycomp", 4,
      [](Row, In in, Out out) {
        put(out, Triple{in[0], in[3], in[2]});
-     },
-     0},
+     }},
     {"setzcomp", 4,
      [](Row, In in, Out out) {
        put(out, Triple{in[0], in[1], in[3]});
-     },
-     0},
+     }},
     {"comp", 4,
      [](Row, In in, Out out) {
        int i = static_cast<int>(in[3]);
        out[0] = i >= 0 && i < 3 ? in[i] : 0;
      },
-     0, -1, 4},
+     -1, 4},
     {"comp", 18,
      [](Row, In in, Out out) {
        int i = static_cast<int>(in[16]), j = static_cast<int>(in[17]);
        out[0] = i >= 0 && i < 4 && j >= 0 && j < 4 ? in[4 * i + j] : 0;
      },
-     0, -1, 5},
+     -1, 5},
     {"setcomp", 5,
      [](Row, In in, Out out) {
        put(out, triple(in));
        int i = static_cast<int>(in[3]);
        if (i >= 0 && i < 3) out[i] = in[4];
      },
-     0, -1, 4},
+     -1, 4},
     {"setcomp", 19,
      [](Row, In in, Out out) {
        put(out, matrix(in));
        int i = static_cast<int>(in[16]), j = static_cast<int>(in[17]);
        if (i >= 0 && i < 4 && j >= 0 && j < 4) out[4 * i + j] = in[18];
      },
-     0, -1, 5},
-    {"length", 3, [](Row, In in, Out out) { out[0] = length(triple(in)); }, 2},
+     -1, 5},
+    {"length", 3, [](Row, In in, Out out) { out[0] = length(triple(in)); }},
     {"normalize", 3,
      [](Row, In in, Out out) {
        double l = length(triple(in));
        put(out, l > 0 ? times(triple(in), 1 / l) : Triple{});
-     },
-     4},
-    {"distance", 6, [](Row, In in, Out out) { out[0] = length(plus(triple(in), triple(in + 3), -1)); }, 4},
+     }},
+    {"distance", 6, [](Row, In in, Out out) { out[0] = length(plus(triple(in), triple(in + 3), -1)); }},
     {"ptlined", 9,
      [](Row, In in, Out out) {
        Triple a = triple(in), axis = plus(triple(in + 3), a, -1), arm = plus(triple(in + 6), a, -1);
        double l2 = dot(axis, axis), t = l2 > 0 ? std::clamp(dot(arm, axis) / l2, 0.0, 1.0) : 0;
        out[0] = Expected(length(plus(arm, axis, -t)), length(arm) + length(axis));
-     },
-     8},
+     }},
     {"rotate", 10,
      [](Row, In in, Out out) {
        Triple a = triple(in + 4), arm = plus(triple(in), a, -1), axis = plus(triple(in + 7), a, -1);
        put(out, plus(rotated(arm, in[3], axis), a), 2 * length(arm) + length(a));
-     },
-     16},
+     }},
     {"rotate", 20,
      [](Row, In in, Out out) {
        Matrix by = identity();
@@ -285,33 +269,28 @@ constexpr Reference kTriples[] = {
          std::copy(v.begin(), v.end(), by[i].begin());
        }
        put(out, times(matrix(in), by), 4 * largest(matrix(in)));
-     },
-     16},
+     }},
     {"translate", 19,
      [](Row, In in, Out out) {
        Matrix by = identity();
        std::copy(in + 16, in + 19, by[3].begin());
        put(out, times(matrix(in), by), 4 * largest(matrix(in)) * std::max(1.0, largest(by)));
-     },
-     3},
+     }},
     {"scale", 19,
      [](Row, In in, Out out) {
        Matrix by = identity();
        for (int i = 0; i < 3; ++i)
          by[i][i] = in[16 + i];
        put(out, times(matrix(in), by));
-     },
-     1},
+     }},
     {"determinant", 16,
      [](Row, In in, Out out) {
        double det;
        inverse(matrix(in), &det);
        out[0] = Expected(det, 24 * std::pow(largest(matrix(in)), 4));
-     },
-     8},
+     }},
     {"isperspective", 16,
-     [](Row, In in, Out out) { out[0] = !(in[3] == 0 && in[7] == 0 && in[11] == 0 && in[15] == 1); }, 0, 0,
-     2},
+     [](Row, In in, Out out) { out[0] = !(in[3] == 0 && in[7] == 0 && in[11] == 0 && in[15] == 1); }, 0, 0},
     {"transform", 19,
      [](Row, In in, Out out) {
        Matrix m = matrix(in);
@@ -325,8 +304,7 @@ constexpr Reference kTriples[] = {
            r[j] += p[k] * m[k][j], size[j] += std::abs(p[k] * m[k][j]);
          out[j] = Expected(r[j] / w, (size[j] + std::abs(r[j] / w) * wsize) / std::abs(w));
        }
-     },
-     8},
+     }},
     {"vtransform", 19,
      [](Row, In in, Out out) {
        Matrix m = matrix(in);
@@ -336,8 +314,7 @@ constexpr Reference kTriples[] = {
            sum += in[16 + k] * m[k][j], size += std::abs(in[16 + k] * m[k][j]);
          out[j] = Expected(sum, size);
        }
-     },
-     3},
+     }},
     {"normalmatrix", 16,
      [](Row, In in, Out out) {
        Matrix m = matrix(in), upper = identity();
@@ -347,29 +324,26 @@ constexpr Reference kTriples[] = {
        Matrix r = inverse(upper);
        double norm = largest(r);
        put(out, r, norm == 0 ? 1 : norm * (1 + norm * std::pow(std::max(1.0, largest(upper)), 3)));
-     },
-     64},
+     }},
     {"faceforward", 9,
      [](Row, In in, Out out) {
        double d = dot(triple(in + 3), triple(in + 6));
        for (int i = 0; i < 3; ++i)
          out[i] = d > 0 ? -in[i] : in[i];
        if (std::abs(d) < 1e-4) put(out, Triple{}, 1e9);
-     },
-     1},
+     }},
     {"incone", 7,
      [](Row, In in, Out out) {
        double sides = length(triple(in)) * length(triple(in + 3)),
               d = dot(triple(in), triple(in + 3)) - in[6] * sides;
        out[0] = std::abs(d) < 1e-4 ? Expected(0, 1e9) : Expected(d >= 0);
      },
-     0, -1, 1},
+     -1, 1},
     {"reflect", 6,
      [](Row, In in, Out out) {
        Triple i = triple(in), n = triple(in + 3);
        put(out, plus(i, n, -2 * dot(i, n)), length(i) * (1 + 4 * dot(n, n)));
-     },
-     4},
+     }},
     {"refract", 7,
      [](Row, In in, Out out) {
        Triple i = triple(in), n = triple(in + 3);
@@ -378,8 +352,8 @@ constexpr Reference kTriples[] = {
        put(out, k < 0 ? Triple{} : plus(times(i, eta), n, -(eta * d + std::sqrt(k))),
            std::abs(k) < 1e-3 * size ? 1e9 : 100 * size);
      },
-     32, -1, 1},
-    {"fresnel", 7, fresnel, 256, -1, 1},
+     -1, 1},
+    {"fresnel", 7, fresnel, -1, 1},
 };
 
 } // namespace
