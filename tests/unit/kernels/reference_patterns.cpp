@@ -33,13 +33,15 @@ uint32_t lattice_hash(uint32_t start, const std::vector<Cell>& cells, unsigned c
   return start;
 }
 
-/// Gradient `entry` of a dimension, in units of 1/127: vertices of a 16-gon, of a dodecahedron and an icosahedron,
-/// of four-dimensional boxes; half of them, the others are their opposites.
+/// Gradient `entry` of a dimension, in units of 1/127: vertices of a 16-gon, of a dodecahedron and an
+/// icosahedron, of four-dimensional boxes; half of them, the others are their opposites.
 std::vector<double> gradient(size_t dimension, unsigned entry) {
-  constexpr int k2[16][2] = {{126, 12}, {122, 37}, {112, 60}, {98, 81}, {81, 98}, {60, 112}, {37, 122}, {12, 126},
-                             {-12, 126}, {-37, 122}, {-60, 112}, {-81, 98}, {-98, 81}, {-112, 60}, {-122, 37}, {-126, 12}};
-  constexpr int k3[16][3] = {{73, 73, 73}, {73, 73, -73}, {73, -73, 73}, {73, -73, -73}, {0, 45, 119}, {45, 119, 0},
-                             {119, 0, 45}, {0, 108, 67}, {108, 67, 0}, {67, 0, 108}, {0, 45, -119}, {45, -119, 0},
+  constexpr int k2[16][2] = {{126, 12}, {122, 37},  {112, 60},  {98, 81},   {81, 98},   {60, 112},
+                             {37, 122}, {12, 126},  {-12, 126}, {-37, 122}, {-60, 112}, {-81, 98},
+                             {-98, 81}, {-112, 60}, {-122, 37}, {-126, 12}};
+  constexpr int k3[16][3] = {{73, 73, 73},  {73, 73, -73}, {73, -73, 73}, {73, -73, -73},
+                             {0, 45, 119},  {45, 119, 0},  {119, 0, 45},  {0, 108, 67},
+                             {108, 67, 0},  {67, 0, 108},  {0, 45, -119}, {45, -119, 0},
                              {-119, 0, 45}, {0, 108, -67}, {108, -67, 0}, {-67, 0, 108}};
   if (dimension == 2) return {double(k2[entry][0]), double(k2[entry][1])};
   if (dimension == 3) return {double(k3[entry][0]), double(k3[entry][1]), double(k3[entry][2])};
@@ -139,7 +141,8 @@ void spline(Row row, In in, Out out) {
   std::string_view basis = named ? row.strings->text(uint32_t(in[0])) : "catmull-rom";
   const bool solve = basis.starts_with("solve");
   if (solve) basis.remove_prefix(5);
-  const size_t first = named ? 2 : 1, width = size_t(components(row.result)), knots = (row.planes - first) / width;
+  const size_t first = named ? 2 : 1, width = size_t(components(row.result)),
+               knots = (row.planes - first) / width;
   const size_t step = basis == "bezier" ? 3 : basis == "hermite" ? 2 : 1, segments = (knots - 4) / step + 1;
   auto at = [&](double x, size_t component) {
     const double along = std::clamp(x, 0.0, 1.0) * double(segments);
@@ -168,8 +171,11 @@ Color linear(const double (&m)[3][3], Color c) {
     out[i] = m[i][0] * c[0] + m[i][1] * c[1] + m[i][2] * c[2];
   return out;
 }
-constexpr double kXyz[3][3] = {{0.4123908, 0.3575843, 0.1804808}, {0.2126390, 0.7151687, 0.0721923}, {0.0193308, 0.1191948, 0.9505322}};
-constexpr double kRgbOfXyz[3][3] = {{3.2409699, -1.5373832, -0.4986108}, {-0.9692436, 1.8759675, 0.0415551}, {0.0556301, -0.2039770, 1.0569715}};
+constexpr double kXyz[3][3] = {
+    {0.4123908, 0.3575843, 0.1804808}, {0.2126390, 0.7151687, 0.0721923}, {0.0193308, 0.1191948, 0.9505322}};
+constexpr double kRgbOfXyz[3][3] = {{3.2409699, -1.5373832, -0.4986108},
+                                    {-0.9692436, 1.8759675, 0.0415551},
+                                    {0.0556301, -0.2039770, 1.0569715}};
 
 /// Smith 1978, one sector of the hexcone after the other.
 Color rgb_of_hsv(Color c) {
@@ -185,7 +191,8 @@ Color rgb_of_hsv(Color c) {
   }
 }
 Color hsv_of_rgb(Color c) {
-  const double most = std::max({c[0], c[1], c[2]}), least = std::min({c[0], c[1], c[2]}), range = most - least;
+  const double most = std::max({c[0], c[1], c[2]}), least = std::min({c[0], c[1], c[2]}),
+               range = most - least;
   if (!(range > 0)) return {0, 0, most};
   double sixth = c[0] == most   ? (c[1] - c[2]) / range
                  : c[1] == most ? 2 + (c[2] - c[0]) / range
@@ -214,7 +221,8 @@ void ctransform(Row row, In in, Out out) {
   for (size_t i = 0; i < 3; ++i)
     size = std::max({size, std::abs(c[i]), std::abs(between[i])});
   // Hue and saturation amplify rounding where the others almost cancel.
-  const double range = std::max({between[0], between[1], between[2]}) - std::min({between[0], between[1], between[2]});
+  const double range =
+      std::max({between[0], between[1], between[2]}) - std::min({between[0], between[1], between[2]});
   const double most = std::abs(std::max({between[0], between[1], between[2]}));
   const bool hexcone = to == "hsv" && from != "hsv";
   for (size_t i = 0; i < 3; ++i) {
@@ -228,8 +236,11 @@ void ctransform(Row row, In in, Out out) {
 }
 
 constexpr Reference kPatterns[] = {
-    {"noise", -1, noise},           {"pnoise", -1, noise, -20, 20}, {"cellnoise", -1, cellnoise, -100, 100},
-    {"spline", -1, spline, 0, 1.1}, {"ctransform", -1, ctransform, 0, 1},
+    {"noise", -1, noise},
+    {"pnoise", -1, noise, -20, 20},
+    {"cellnoise", -1, cellnoise, -100, 100},
+    {"spline", -1, spline, 0, 1.1},
+    {"ctransform", -1, ctransform, 0, 1},
 };
 
 } // namespace
