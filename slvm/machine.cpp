@@ -164,13 +164,24 @@ std::vector<std::string> split_categories(const std::string& list) {
 Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader,
                                                        std::span<const ParamValue> given,
                                                        const InstanceOptions& options) const {
+  return instantiate(std::move(shader), given, options, options_.specialise);
+}
+
+std::unique_ptr<Instance> Machine::unspecialised(const Instance& light) const {
+  // What was bound once can be bound again.
+  return std::move(*instantiate(light.shader_, light.bound().given, {light.shader_to_current_, {}}, false));
+}
+
+Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader,
+                                                       std::span<const ParamValue> given,
+                                                       const InstanceOptions& options, bool fold) const {
   std::unique_ptr<Instance> instance(new Instance);
   instance->id_ = ++instances_;
   instance->shader_ = std::move(shader);
   instance->shader_to_current_ = options.shader_to_current;
   Result<BoundValues> values = bind_values(instance->shader_->program(), given, options.shader_to_current);
   if (!values) return Error{values.error()};
-  if (options_.specialise)
+  if (fold)
     instance->specialised_ = specialise(instance->shader_->program(), *values, options.may_vary, *evaluator_);
   const Program& program = instance->program();
   for (size_t i = 0; i < program.params.size(); ++i)
@@ -178,6 +189,7 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
       instance->categories_ = split_categories((*values)[i]->strings[0]);
   instance->bound_ = std::make_unique<Instance::Bound>();
   Instance::Bound& bound = *instance->bound_;
+  if (instance->shader().kind() == ShaderKind::kLight) bound.given.assign(given.begin(), given.end());
   if (std::string error = bind_code(bound, program, *kernels_); !error.empty()) return Error{error};
   bind_constants(bound, program, strings_);
   bind_params(bound, program, *values, strings_);

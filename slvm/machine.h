@@ -108,6 +108,9 @@ public:
   Result<std::unique_ptr<Instance>> instantiate(std::shared_ptr<const Shader>, std::span<const ParamValue>,
                                                 const InstanceOptions& = {}) const;
 
+  /// A light again, with no value folded into its code: all its parameters can be sent values while it runs.
+  std::unique_ptr<Instance> unspecialised(const Instance& light) const;
+
   const MachineOptions& options() const { return options_; }
   StringPool& strings() const { return strings_; }
   const KernelTable& kernels() const { return *kernels_; }
@@ -119,6 +122,9 @@ public:
   static constexpr size_t kMaxMessages = 1000;
 
 private:
+  Result<std::unique_ptr<Instance>> instantiate(std::shared_ptr<const Shader>, std::span<const ParamValue>,
+                                                const InstanceOptions&, bool fold) const;
+
   MachineOptions options_;
   const KernelTable* kernels_;
   std::unique_ptr<ir::ConstantEvaluator> evaluator_;

@@ -86,8 +86,14 @@ slvm::ir::ValueId Lowering::builtin_call(const CallExpr& e) {
     args.push_back(value(*t.token));
     args.push_back(value(*t.value));
   }
-  std::vector<ValueId> results = b_.call(e.shadeop, args, result_types);
-  size_t next = signature.result != Type::kVoid;
+  return call_into(e.shadeop, args, result_types, places);
+}
+
+slvm::ir::ValueId Lowering::call_into(ShadeopId id, const Values& args, const std::vector<Type>& result_types,
+                                      const std::vector<Place>& places) {
+  std::vector<ValueId> results = b_.call(id, args, result_types);
+  const bool has_result = slvm::shadeop(id).signature.result != Type::kVoid;
+  size_t next = has_result;
   for (const Place& p : places) {
     if (p.whole_array) {
       uint32_t array = array_of(*p.variable);
@@ -96,7 +102,7 @@ slvm::ir::ValueId Lowering::builtin_call(const CallExpr& e) {
     }
     store(p, results[next++]);
   }
-  return signature.result == Type::kVoid ? ir::kNoValue : results[0];
+  return has_result ? results[0] : ir::kNoValue;
 }
 
 } // namespace slc

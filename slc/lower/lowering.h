@@ -53,6 +53,8 @@ private:
   void jump(const JumpStmt& s);
   void return_statement(const ReturnStmt& s);
   void illuminance(const IlluminanceStmt& s);
+  bool begin_sending(const std::vector<TokenArg>& tokens);
+  void receive_from_light(const std::vector<TokenArg>& tokens);
   void emission(const EmissionStmt& s);
   void gather(const GatherStmt& s);
   void initialise_array(const Variable& v);
@@ -110,6 +112,9 @@ private:
   ValueId call(const CallExpr& e);
   ValueId inline_function(const CallExpr& e);
   ValueId builtin_call(const CallExpr& e);
+  /// A call whose result comes first and whose outputs go to these places; gives the result.
+  ValueId call_into(ShadeopId, const Values& args, const std::vector<Type>& result_types,
+                    const std::vector<Place>& places);
   ValueId random_call(const CallExpr& e, const slvm::ShadeopInfo& info);
   /// The statements of a function or shader; `result`: variable index of what it returns, 0 for none.
   void function_body(const BlockStmt& body, size_t result);

@@ -181,12 +181,43 @@ void Lowering::return_statement(const ReturnStmt& s) {
                values_for(frames_[function.frame].carried));
 }
 
+// The optional arguments of a light loop before it: what it sends, and whether its lights must run anew.
+bool Lowering::begin_sending(const std::vector<TokenArg>& tokens) {
+  bool sends = false;
+  for (const TokenArg& t : tokens) {
+    std::string_view name = static_cast<const StringExpr&>(*t.token).value;
+    if (name == "lightcache") {
+      b_.call(slvm::shadeop_overloads("lightcache")[0], Values{value(*t.value)}, {});
+    } else if (constexpr std::string_view kSend = "send:light:"; name.starts_with(kSend)) {
+      const bool array = t.value->array_length != kNotArray;
+      const ValueId sent = array ? load(place(*t.value)) : value(*t.value);
+      b_.call(slvm::shadeop_overloads("lightsend")[array ? 1 : 0],
+              Values{b_.string(std::string(name.substr(kSend.size()))), sent}, {});
+      sends = true;
+    }
+  }
+  return sends;
+}
+
+// "light:name" is lightsource("name", variable) at the begin of each round.
+void Lowering::receive_from_light(const std::vector<TokenArg>& tokens) {
+  for (const TokenArg& t : tokens) {
+    std::string_view name = static_cast<const StringExpr&>(*t.token).value;
+    if (!t.info->output) continue;
+    name.remove_prefix(std::string_view("light:").size());
+    Place p = place(*t.value);
+    call_into(slvm::shadeop_overloads("lightsource")[p.whole_array ? 1 : 0],
+              {b_.string(std::string(name)), load(p)}, {Type::kFloat, t.value->type}, {p});
+  }
+}
+
 void Lowering::illuminance(const IlluminanceStmt& s) {
   store_changed(true); // lights may ask for output parameters
   Values args{s.category ? value(*s.category) : b_.string(""), value(*s.position),
               s.axis ? value(*s.axis) : zero(Type::kVector), s.angle ? value(*s.angle) : zero(Type::kFloat)};
   for (Global g : {Global::kL, Global::kCl, Global::kOl})
     global_slot(g); // bound for each light
+  const bool sends = begin_sending(s.tokens);
   Frame frame{true, in_scope(), nullptr};
   Values initial = values_for(frame.carried);
   args.insert(args.end(), initial.begin(), initial.end());
@@ -195,6 +226,7 @@ void Lowering::illuminance(const IlluminanceStmt& s) {
   open_carried(body, frame.carried);
   ir::Region* outer = b_.region();
   b_.set_region(&body);
+  receive_from_light(s.tokens);
   statement(*s.body);
   if (!b_.terminated()) b_.next_round(0, values_for(frame.carried));
   b_.set_region(outer);
@@ -204,6 +236,7 @@ void Lowering::illuminance(const IlluminanceStmt& s) {
   ir::InstId id = b_.region_inst(ir::Op::kIlluminance, s.axis ? 1 : 0, std::move(args), std::move(regions),
                                  types_of(frame.carried));
   set_values(frame.carried, m_.insts[id].results);
+  if (sends) b_.call(slvm::shadeop_overloads("lightsend")[2], Values(), {});
 }
 
 void Lowering::emission(const EmissionStmt& s) {

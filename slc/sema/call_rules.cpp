@@ -91,7 +91,8 @@ void Checker::check_call_rules(CallExpr& call) {
   if (call.name == "spline") {
     size_t first = call.args[0]->type == Type::kString ? 2 : 1; // of the knots
     size_t knots = call.args.size() - first;
-    int array = call.args[first]->array_length;
+    bool counted = knots == 2 && call.args[first + 1]->array_length != kNotArray; // spline(x, n, array)
+    int array = call.args[first + counted]->array_length;
     if (array == kNotArray ? knots < 4 : array > 0 && array < 4)
       report(diags_, Msg::kTooFewKnots, call.range, array == kNotArray ? static_cast<int>(knots) : array);
   }

@@ -127,6 +127,8 @@ void Checker::check_illuminance(IlluminanceStmt& s) {
     s.position = std::move(s.args[first]);
     if (positional == first + 3) check_axis_and_angle(s.args, first + 1, s.axis, s.angle);
     split_tokens(s.args, positional, "illuminance", "illuminance", s.tokens);
+    for (const TokenArg& t : s.tokens)
+      if (!t.info) report(diags_, Msg::kTokenConstant, t.token->range, "illuminance");
   }
   s.args.clear();
   ++light_loops_;

@@ -50,9 +50,10 @@ struct Instance::Bound {
   /// Words of code in strip blocks that are operands: those that are in the same place for every strip of a
   /// grid, and those that move from strip to strip. Both in order.
   std::vector<uint32_t> fixed_operands, moving_operands;
-  bool emits = false;          ///< a light with illuminate or solar: not an ambient light
-  bool emits_once = false;     ///< one such block, outside loops: its L, Cl and Ol stay where they are
-  bool reads_messages = false; ///< its results depend on other shaders' parameters
+  std::vector<ParamValue> given; ///< of lights: what the instance was made with
+  bool emits = false;            ///< a light with illuminate or solar: not an ambient light
+  bool emits_once = false;       ///< one such block, outside loops: its L, Cl and Ol stay where they are
+  bool reads_messages = false;   ///< its results depend on other shaders' parameters
 };
 
 } // namespace slvm

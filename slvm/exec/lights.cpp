@@ -4,8 +4,10 @@
 #include "slvm/exec/run.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace slvm {
 
@@ -40,35 +42,53 @@ bool same(const Operand& o, size_t pitch, const std::vector<float>& saved) {
 } // namespace
 
 LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance& light,
-                           const Operand& position, const Operand& normal) {
+                           const Operand& position, const Operand& normal, std::span<const SentValue> sent) {
   size_t pitch = state.grid->pitch();
   const Instance::Bound& bound = light.bound();
   bool uses_normal = bound.slot_of[static_cast<size_t>(Global::kNs)] >= 0;
-  if (!bound.reads_messages)
+  if (!bound.reads_messages && sent.empty())
     for (size_t i = 0; i < used_; ++i) {
       LitGrid& g = *grids_[i];
       if (g.light_id == light.id() && same(position, pitch, g.position) &&
           (!uses_normal || same(normal, pitch, g.normal)))
         return g;
     }
+  const Instance& shader = sent.empty() ? light : open(state.machine, light);
   // A place whose run was of this light keeps its registers.
   size_t place = used_;
-  while (place < grids_.size() && grids_[place]->light_id != light.id())
+  while (place < grids_.size() && grids_[place]->light_id != shader.id())
     ++place;
   if (place == grids_.size()) grids_.push_back(std::make_unique<LitGrid>());
   std::swap(grids_[used_], grids_[place]);
   LitGrid& g = *grids_[used_++];
-  if (g.light_id != light.id() || g.run->outer != &by) {
-    g.run = std::make_unique<ShaderRun>(state, light, &by);
+  if (g.light_id != shader.id() || g.run->outer != &by) {
+    g.run = std::make_unique<ShaderRun>(state, shader, &by);
     g.light = &light;
-    g.light_id = light.id();
+    g.light_id = shader.id();
   }
   save(position, pitch, g.position);
   if (uses_normal) save(normal, pitch, g.normal);
-  g.run->prepare(&position, &normal);
+  g.run->prepare(&position, &normal, sent);
   g.run->execute();
   end_light(*g.run);
   return g;
+}
+
+const Instance& LightCache::open(const Machine& machine, const Instance& light) {
+  std::unique_ptr<const Instance>& known = open_[light.id()];
+  if (!known) known = machine.unspecialised(light);
+  return known ? *known : light;
+}
+
+void LightLoop::send(std::string_view name, Type type, uint32_t elements, const Operand& value,
+                     size_t pitch) {
+  SentValue& sent = sent_.emplace_back();
+  const size_t lanes = value.step ? pitch : kMaxLanes;
+  const size_t planes = static_cast<size_t>(components(type)) * std::max(elements, 1u);
+  sent.name = name;
+  sent.planes = {sent.memory.reserve(planes * lanes), lanes, value.step, type, elements};
+  for (size_t i = 0; i < planes; ++i)
+    std::memcpy(sent.planes.data + i * lanes, value.plane(i), lanes * sizeof(float));
 }
 
 void LightLoop::begin(ShaderRun& run, std::string_view category, const Operand& position, const Operand* axis,
@@ -87,7 +107,7 @@ void LightLoop::begin(ShaderRun& run, std::string_view category, const Operand& 
   }
   for (const Instance* light : run.state.services.lights(run.shading_state())) {
     if (!light->bound().emits || !category_matches(category, light->categories())) continue;
-    LitGrid& lit = run.state.lights.light(run.state, run, *light, position, normal);
+    LitGrid& lit = run.state.lights.light(run.state, run, *light, position, normal, sent_);
     for (size_t i = 0; i < lit.run->emission_count; ++i)
       rounds_.emplace_back(&lit, &lit.run->emissions[i]);
   }
@@ -243,6 +263,28 @@ void end_light(ShaderRun& run) {
 }
 
 namespace grid_ops {
+
+void send_to_lights(const GridCall& call) {
+  const GridOperand& name = call.operands[0];
+  const GridOperand& value = call.operands[1];
+  call.run.light_loop.send(call.run.state.machine.strings().text(std::bit_cast<uint32_t>(*name.planes.data)),
+                           value.type, value.array ? value.planes.elements : 0, value.planes, call.run.pitch);
+}
+
+void send_nothing(const GridCall& call) {
+  call.run.light_loop.send_nothing();
+}
+
+void light_cache(const GridCall& call) {
+  std::string_view mode =
+      call.run.state.machine.strings().text(std::bit_cast<uint32_t>(*call.operands[0].planes.data));
+  if (mode == "refresh")
+    call.run.state.lights.clear();
+  else if (mode != "reuse")
+    call.run.report(call.code, MessageSeverity::kError,
+                    fmt::format("\"lightcache\" is \"reuse\" or \"refresh\", not \"{}\"", mode),
+                    call.run.points);
+}
 
 // Sum of Cl over the lights that have no illuminate or solar.
 void ambient(const GridCall& call) {

@@ -4,6 +4,7 @@
 #include "slvm/exec/bound.h"
 #include "slvm/wide/mask.h"
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,6 +30,14 @@ struct LightKernels {
   Kernel subtract, negate, normalize, in_cone;
 };
 
+/// A value that a light loop sends to its lights: for these the parameter of this name, if they have one of
+/// the same type.
+struct SentValue {
+  std::string name;
+  Planes planes;
+  PlaneMemory memory;
+};
+
 /// One light's results for one set of points.
 struct LitGrid {
   std::unique_ptr<ShaderRun> run;      ///< kept for lightsource()
@@ -43,11 +52,16 @@ public:
   LightCache();
   ~LightCache();
   void clear() { used_ = 0; }
-  /// What `light` gives at `position` with `normal`: run now, unless it was for the same points.
+  /// What `light` gives at `position` with `normal`: run now, unless it was for the same points with nothing
+  /// sent.
   LitGrid& light(GridState& state, const ShaderRun& by, const Instance& light, const Operand& position,
-                 const Operand& normal);
+                 const Operand& normal, std::span<const SentValue> sent = {});
 
 private:
+  /// The light with all its parameters as variables: a specialised one has values in its code.
+  const Instance& open(const Machine&, const Instance&);
+
+  std::map<uint64_t, std::unique_ptr<const Instance>> open_;
   std::vector<std::unique_ptr<LitGrid>> grids_;
   size_t used_ = 0;
 };
@@ -65,10 +79,14 @@ public:
   /// The light of this round, for lightsource(); null outside a loop.
   const LitGrid* current() const { return current_; }
   void end() { current_ = nullptr; }
+  /// What later loops send to their lights, until send_nothing().
+  void send(std::string_view name, Type type, uint32_t elements, const Operand& value, size_t pitch);
+  void send_nothing() { sent_.clear(); }
 
 private:
   static bool category_matches(std::string_view wanted, std::span<const std::string> categories);
 
+  std::vector<SentValue> sent_;
   std::vector<std::pair<LitGrid*, const Emission*>> rounds_;
   size_t at_ = 0;
   const LitGrid* current_ = nullptr;

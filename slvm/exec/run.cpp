@@ -10,7 +10,8 @@ namespace slvm {
 ShaderRun::ShaderRun(GridState& s, const Instance& i, const ShaderRun* o)
     : state(s), instance(i), outer(o), program(i.program()), bound(i.bound()) {}
 
-void ShaderRun::prepare(const Operand* position, const Operand* normal) {
+void ShaderRun::prepare(const Operand* position, const Operand* normal, std::span<const SentValue> sent) {
+  sent_ = sent;
   points = state.grid->points();
   pitch = state.grid->pitch();
   extra_used_ = 0;
@@ -31,8 +32,8 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal) {
 
 void ShaderRun::execute() {
   Frame frame = frame_;
-  for (auto [section, slot] : bound.defaults) // not where a primitive variable gives the value
-    if (!primvar_for(slot)) execute_code(frame, mask, program.sections[section]);
+  for (auto [section, slot] : bound.defaults)
+    if (!override_for(slot)) execute_code(frame, mask, program.sections[section]);
   execute_code(frame, mask, program.sections[0]);
 }
 
@@ -88,18 +89,21 @@ Planes ShaderRun::take_copy(const Slot& slot, const Planes& from) {
   return to;
 }
 
-const Planes* ShaderRun::primvar_for(size_t i) const {
-  if (program.kind == ShaderKind::kLight) return nullptr; // they belong to the surface that is lit
+const Planes* ShaderRun::override_for(size_t i) const {
   const Slot& slot = program.slots[i];
-  const Planes* primvar = state.grid->primvar(slot.name);
-  return primvar && primvar->type == slot.type && primvar->elements == slot.elements ? primvar : nullptr;
+  auto fits = [&](const Planes& p) { return p.type == slot.type && p.elements == slot.elements; };
+  for (const SentValue& sent : sent_)
+    if (sent.name == slot.name && fits(sent.planes)) return &sent.planes;
+  // Primitive variables belong to the surface that is lit.
+  const Planes* primvar = program.kind == ShaderKind::kLight ? nullptr : state.grid->primvar(slot.name);
+  return primvar && fits(*primvar) ? primvar : nullptr;
 }
 
 Planes ShaderRun::bind_parameter(size_t i) {
   const Slot& slot = program.slots[i];
-  const Planes* primvar = primvar_for(i);
-  Planes value = primvar ? *primvar : bound.param_planes[i];
-  // A uniform parameter takes its value at the first point of a varying primitive variable.
+  const Planes* other = override_for(i);
+  Planes value = other ? *other : bound.param_planes[i];
+  // A uniform parameter takes its value at the first point of a varying one.
   bool must_copy = slot.stored || !value.data || (value.step && !slot.varying);
   return must_copy ? take_copy(slot, value) : value;
 }

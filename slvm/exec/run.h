@@ -49,7 +49,9 @@ public:
 
   /// Takes memory for the grid of `state` and binds external variables; may be called again for the next
   /// grid. `position` and `normal`: Ps and Ns of lights.
-  void prepare(const Operand* position = nullptr, const Operand* normal = nullptr);
+  /// `sent`: their parameters that are not the instance's.
+  void prepare(const Operand* position = nullptr, const Operand* normal = nullptr,
+               std::span<const SentValue> sent = {});
   /// Computes defaults of parameters, then runs the shader.
   void execute();
 
@@ -96,8 +98,8 @@ public:
 private:
   void bind_registers();
   Planes bind_parameter(size_t slot);
-  /// The primitive variable that overrides the parameter of a slot, or null.
-  const Planes* primvar_for(size_t slot) const;
+  /// What overrides the parameter of a slot, a primitive variable or a sent value, or null.
+  const Planes* override_for(size_t slot) const;
   Planes bind_variable(Global g, bool stored, const Operand* position, const Operand* normal);
   Planes default_variable(Global g);
   Planes lattice(Global g);
@@ -127,6 +129,7 @@ private:
   uint32_t next_light(MaskStack& mask, uint32_t body, uint32_t end);
 
   Frame frame_{};
+  std::span<const SentValue> sent_;
   PlaneMemory memory_;
   std::vector<PlaneMemory> extra_; ///< variables with no place in the register memory
   size_t extra_used_ = 0;

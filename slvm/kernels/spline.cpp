@@ -18,8 +18,9 @@ namespace HWY_NAMESPACE {
 struct Knots {
   const Operand* first;
   uint32_t operands;
+  uint32_t most = ~0u; ///< how many count
 
-  uint32_t count() const { return operands == 1 ? first->elements : operands; }
+  uint32_t count() const { return std::min(operands == 1 ? first->elements : operands, most); }
   bool uniform() const {
     return std::all_of(first, first + operands, [](const Operand& o) { return o.step == 0; });
   }
@@ -166,6 +167,27 @@ inline void basisspline_v(const Operand* o, uint32_t count, size_t lanes, const 
   SplineBasis basis = spline_basis(string_operand(o[1], context));
   basis.solve = false;
   Spline<3>(basis, {o + 3, count - 3}).run(o[0], o[2], context.begin, lanes);
+}
+
+/// The first n of an array's knots, n a uniform operand.
+inline Knots first_knots(const Operand& n, const Operand* array) {
+  const float count = *n.data;
+  return {array, 1, count >= 1 ? static_cast<uint32_t>(std::min(count, 1e9f)) : 0};
+}
+inline void countspline_f(const Operand* o, uint32_t, size_t lanes, const KernelContext& context) {
+  Spline<1>(kCatmullRom, first_knots(o[2], o + 3)).run(o[0], o[1], context.begin, lanes);
+}
+inline void countspline_v(const Operand* o, uint32_t, size_t lanes, const KernelContext& context) {
+  Spline<3>(kCatmullRom, first_knots(o[2], o + 3)).run(o[0], o[1], context.begin, lanes);
+}
+inline void basiscountspline_f(const Operand* o, uint32_t, size_t lanes, const KernelContext& context) {
+  SplineBasis basis = spline_basis(string_operand(o[1], context));
+  Spline<1>(basis, first_knots(o[3], o + 4)).run(o[0], o[2], context.begin, lanes);
+}
+inline void basiscountspline_v(const Operand* o, uint32_t, size_t lanes, const KernelContext& context) {
+  SplineBasis basis = spline_basis(string_operand(o[1], context));
+  basis.solve = false;
+  Spline<3>(basis, first_knots(o[3], o + 4)).run(o[0], o[2], context.begin, lanes);
 }
 
 #define SL_FAMILY fill_spline

@@ -45,12 +45,14 @@ float varied(float first, size_t k, size_t point) {
 
 bool MatrixCall::can_call(ShadeopId id) {
   const ShadeopInfo& row = shadeop(id);
-  if (row.kind == ShadeopKind::kPending || (row.flags & (kTexture | kRays | kMessage | kEffect | kInIlluminance)))
+  if (row.kind == ShadeopKind::kPending ||
+      (row.flags & (kTexture | kRays | kMessage | kEffect | kInIlluminance)))
     return false;
   if ((row.flags & kInternal) && !is_operator(row)) return false;
   const Signature& s = row.signature;
   for (int i = 0; i < s.param_count; ++i)
-    if (const SignatureParam& p = s.params[static_cast<size_t>(i)]; p.any || (p.array && p.type == Type::kString))
+    if (const SignatureParam& p = s.params[static_cast<size_t>(i)];
+        p.any || (p.array && p.type == Type::kString))
       return false;
   return s.result != Type::kString && row.name != "ctransform";
 }
@@ -81,11 +83,13 @@ std::string MatrixCall::source(const std::vector<OperandClass>& classes) const {
   std::vector<std::string> args;
   size_t next_result = s.result == Type::kVoid ? 0 : 1;
   for (size_t i = 0; i < results_.size(); ++i)
-    params += fmt::format(" output varying {0} r{1} = 7;", results_[i] == Type::kBool ? "float" : type_name(results_[i]), i);
+    params += fmt::format(" output varying {0} r{1} = 7;",
+                          results_[i] == Type::kBool ? "float" : type_name(results_[i]), i);
   for (size_t i = 0; i < operands_.size(); ++i) {
     const MatrixOperand& o = operands_[i];
     const SignatureParam& p = s.param(static_cast<int>(i));
-    const std::string name = fmt::format("a{}", i), length = o.elements ? fmt::format("[{}]", o.elements) : "";
+    const std::string name = fmt::format("a{}", i),
+                      length = o.elements ? fmt::format("[{}]", o.elements) : "";
     if (o.type == Type::kString) {
       args.push_back(literal(o));
       continue;

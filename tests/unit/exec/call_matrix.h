@@ -16,7 +16,7 @@ enum class OperandClass { kConstant, kUniform, kVarying };
 
 struct MatrixOperand {
   Type type = Type::kFloat;
-  uint32_t elements = 0;    ///< of an array, else 0
+  uint32_t elements = 0; ///< of an array, else 0
   bool must_be_uniform = false;
   std::string text;         ///< of strings, which are always literals
   std::vector<float> first; ///< its value at the first point, and everywhere unless it varies
@@ -32,7 +32,8 @@ public:
   /// A surface "t" whose outputs r0, r1... get what the call gives, where primitive variable m is 1, and else
   /// keep their initial value 7. classes: one for each operand.
   std::string source(const std::vector<OperandClass>& classes) const;
-  /// Primitive variables of a grid for this call: operands that are not varying in `values` repeat their first value.
+  /// Primitive variables of a grid for this call: operands that are not varying in `values` repeat their
+  /// first value.
   void fill(Grid&, const std::vector<OperandClass>& values) const;
 
   size_t operands() const { return operands_.size(); }

@@ -1,6 +1,7 @@
-// Every shadeop that needs no scene, called in a shader: operands constant, uniform, varying and mixed; under masks
-// of all, no, one, every other and random points; on grids around the width of a vector; in strips of several
-// widths; on every target. All must agree, to the bit, with the plainest way: varying operands, no mask, one strip.
+// Every shadeop that needs no scene, called in a shader: operands constant, uniform, varying and mixed; under
+// masks of all, no, one, every other and random points; on grids around the width of a vector; in strips of
+// several widths; on every target. All must agree, to the bit, with the plainest way: varying operands, no
+// mask, one strip.
 #include "tests/unit/exec/call_matrix.h"
 #include "tests/unit/exec/shading.h"
 
@@ -33,8 +34,8 @@ protected:
     services_.spaces["tilted"] = {{0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, 0, 0, 2, 0, 1, -1, 3, 1}};
     const auto width = static_cast<uint32_t>(kernel_table().width);
     for (uint32_t strip : {width < 16 ? 16u : width, 128u, 4096u})
-      machines_.push_back(
-          std::make_unique<Machine>(MachineOptions{.strip_points = strip, .target = GetParam(), .specialise = false}));
+      machines_.push_back(std::make_unique<Machine>(
+          MachineOptions{.strip_points = strip, .target = GetParam(), .specialise = false}));
     sizes_ = {{1, 1}, {15, 1}, {16, 1}, {17, 1}, {25, 12}};
   }
 
@@ -71,8 +72,8 @@ protected:
         const float found = got[r][k];
         ASSERT_TRUE(std::bit_cast<uint32_t>(wanted) == std::bit_cast<uint32_t>(found) ||
                     (std::isnan(wanted) && std::isnan(found)))
-            << what << ": r" << r << " component " << component << " at point " << point << " of " << points << " is "
-            << found << ", not " << wanted;
+            << what << ": r" << r << " component " << component << " at point " << point << " of " << points
+            << " is " << found << ", not " << wanted;
       }
   }
 
@@ -87,8 +88,7 @@ protected:
       const std::string source = call.source(classes);
       const auto slo = compile(source);
       for (size_t s = 0; s < sizes_.size(); ++s) {
-        const Results expected =
-            run(*machines_.back(), *reference, call, classes, sizes_[s], kMasks[0]);
+        const Results expected = run(*machines_.back(), *reference, call, classes, sizes_[s], kMasks[0]);
         const auto& machine = machines_[s % machines_.size()];
         auto instance = machine->instantiate(*machine->load(slo), {}, {});
         ASSERT_TRUE(instance) << source << instance.error();
@@ -105,7 +105,8 @@ protected:
     for (size_t i = 0; i < classes.size(); ++i) {
       OperandClass& c = classes[i];
       // Folded constants are those of the best target.
-      if (c == OperandClass::kConstant && std::string_view(GetParam()) != kernel_targets()[0]) c = OperandClass::kUniform;
+      if (c == OperandClass::kConstant && std::string_view(GetParam()) != kernel_targets()[0])
+        c = OperandClass::kUniform;
       if (c == OperandClass::kVarying && call.operand(i).must_be_uniform) c = OperandClass::kUniform;
     }
     return classes;
@@ -140,7 +141,8 @@ TEST_P(CallMatrix, AllWaysAgree) {
   EXPECT_GT(rows, 300u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, CallMatrix, testing::ValuesIn(kernel_targets().begin(), kernel_targets().end()),
+INSTANTIATE_TEST_SUITE_P(Targets, CallMatrix,
+                         testing::ValuesIn(kernel_targets().begin(), kernel_targets().end()),
                          [](const auto& target) { return std::string(target.param); });
 
 } // namespace

@@ -141,8 +141,15 @@ void spline(Row row, In in, Out out) {
   std::string_view basis = named ? row.strings->text(uint32_t(in[0])) : "catmull-rom";
   const bool solve = basis.starts_with("solve");
   if (solve) basis.remove_prefix(5);
-  const size_t first = named ? 2 : 1, width = size_t(components(row.result)),
-               knots = (row.planes - first) / width;
+  const bool counted = row.params[named ? 2 : 1].uniform;
+  const size_t at_x = named ? 1 : 0, first = at_x + (counted ? 2 : 1);
+  const size_t width = size_t(components(row.result));
+  size_t knots = (row.planes - first) / width;
+  if (counted) knots = std::min(knots, size_t(std::max(in[first - 1], 0.0)));
+  if (knots < 4) {
+    std::fill_n(out, width, Expected(0));
+    return;
+  }
   const size_t step = basis == "bezier" ? 3 : basis == "hermite" ? 2 : 1, segments = (knots - 4) / step + 1;
   auto at = [&](double x, size_t component) {
     const double along = std::clamp(x, 0.0, 1.0) * double(segments);
@@ -156,7 +163,7 @@ void spline(Row row, In in, Out out) {
   for (size_t i = first; i < row.planes; ++i)
     magnitude = std::max(magnitude, std::abs(in[i]));
   for (size_t c = 0; c < width; ++c)
-    out[c] = Expected(at(in[first - 1], c), 4 * magnitude);
+    out[c] = Expected(at(in[at_x], c), 4 * magnitude);
   // The inverse is tested for rising knots (spline_test.cpp): random ones have none.
   if (solve && width == 1) out[0] = Expected(0, 1e9);
 }
