@@ -143,6 +143,7 @@ void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32
        to = std::lower_bound(from, moving.end(), end);
   Frame f = grid;
   f.may_narrow = !all;
+  f.runs_idle = all;
   for (size_t first = 0; first < points; first += strip) {
     f.first = first;
     f.lanes = std::min(strip, pitch - first);
@@ -228,26 +229,26 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
       break;
     case Opcode::k_endif:
       m.pop_if();
-      if (!m.any()) pc = w[0];
+      if (!m.any() && !f.runs_idle) pc = w[0];
       break;
     case Opcode::k_uif:
       if (std::bit_cast<uint32_t>(*operand_at(f, w).data) == 0) pc = w[1] + 1 + instruction_words(code[w[1]]);
       break;
     case Opcode::k_uelse: pc = w[0]; break;
     case Opcode::k_uendif:
-      if (!m.any()) pc = w[0];
+      if (!m.any() && !f.runs_idle) pc = w[0];
       break;
     case Opcode::k_loop:
     case Opcode::k_block: m.push_loop(); break;
     case Opcode::k_endloop:
       if (m.next_round())
         pc = w[0];
-      else if (!m.any())
+      else if (!m.any() && !f.runs_idle)
         pc = w[1];
       break;
     case Opcode::k_endblock:
       m.pop_loop();
-      if (!m.any()) pc = w[0];
+      if (!m.any() && !f.runs_idle) pc = w[0];
       break;
     case Opcode::k_while:
     case Opcode::k_uwhile:

@@ -37,6 +37,7 @@ struct Frame {
   /// In strips: operands by word of code, found before the block runs. Null at grid level.
   const Operand* resolved = nullptr;
   bool may_narrow = false; ///< false where derivatives read lanes that are off
+  bool runs_idle = false;  ///< a strip that derivatives read: goes on with no lane on
   /// The lanes worth computing: all active ones are among [context.begin, end).
   size_t end = 0;
   KernelContext context;

@@ -122,6 +122,7 @@ private:
 
   /// The x in [0, 1] where a monotonic spline has the value y, by bisection to 2^-25.
   HWY_INLINE Point solved(Float y, size_t lane) const {
+    if (segments_ == 0) return zero();
     constexpr int kSteps = 25;
     Float low = 0.0f, high = 1.0f;
     Bool rising = at(0.0f, lane).value[0] <= at(1.0f, lane).value[0];

@@ -73,7 +73,7 @@ std::vector<ShadeopId> ProgramWriter::rows(Type result, bool uniform) const {
     if ((row.flags & kScene) && !area) continue;
     if (pointwise_ && ((row.flags & kDerivative) || row.name.starts_with("random"))) continue;
     if (uniform && (row.flags & (kHiddenVarying | kDerivative))) continue;
-    if (inputs_only_ && row.name == "operator?:") continue;
+    if (inputs_only_ && (row.name == "operator?:" || row.kind == ShadeopKind::kRsl)) continue;
     bool takes_any = false;
     for (int p = 0; p < s.param_count; ++p)
       takes_any |= s.params[static_cast<size_t>(p)].any;
