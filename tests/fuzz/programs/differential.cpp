@@ -41,8 +41,9 @@ private:
 
 constexpr const char* kLights =
     "light sky() { Cl = color (0.1, 0.2, 0.3); L = 0; }\n"
-    "light lamp(string __category = \"key\"; float w = 2;) {"
-    "  illuminate (point (0, 3, -2)) { Cl = w * color (1, s, mod(xcomp(Ps), 1)) / (L . L); } }\n"
+    "light lamp(string __category = \"key\"; varying float w = 2;) {"
+    "  float k = 0; surface(\"of\", k);"
+    "  illuminate (point (0, 3, -2)) { Cl = (w + k) * color (1, s, mod(xcomp(Ps), 1)) / (L . L); } }\n"
     "light sun() { solar (vector (0, -1, 1), 0.2) { Cl = color (1, 0.5, zcomp(Ps)); } }\n";
 
 /// Results by name: component planes one after the other.

@@ -67,10 +67,10 @@ std::vector<ShadeopId> ProgramWriter::rows(Type result, bool uniform) const {
     bool is_operator = row.name.starts_with("operator");
     if (s.result != result || row.kind == ShadeopKind::kPending) continue;
     if ((row.flags & kInternal) && !is_operator) continue;
-    constexpr uint32_t kScene =
-        kTexture | kRays | kMessage | kInIlluminance | kReadsState | kLights | kEffect;
-    bool area = row.name == "area" || row.name == "calculatenormal";
-    if ((row.flags & kScene) && !area) continue;
+    constexpr uint32_t kScene = kTexture | kRays | kMessage | kInIlluminance | kEffect;
+    const bool lights = (row.flags & kLights) && !in_illuminance_ && !in_function_ && !inputs_only_;
+    const bool area = row.name == "area" || row.name == "calculatenormal";
+    if ((row.flags & kScene) || ((row.flags & (kReadsState | kLights)) && !lights && !area)) continue;
     if (pointwise_ && ((row.flags & kDerivative) || row.name.starts_with("random"))) continue;
     if (uniform && (row.flags & (kHiddenVarying | kDerivative))) continue;
     if (inputs_only_ && (row.name == "operator?:" || row.kind == ShadeopKind::kRsl)) continue;

@@ -132,14 +132,17 @@ void ProgramWriter::jump() {
 
 void ProgramWriter::illuminance() {
   if (in_illuminance_ || in_function_ || loops_ > 0) return assignment();
-  const char* category = choose_.chance(30) ? "\"key\", " : choose_.chance(20) ? "\"-key\", " : "";
+  std::string head = choose_.chance(30) ? "\"key\", " : choose_.chance(20) ? "\"-key\", " : "";
+  head += expression(Type::kPoint, 2, false);
   if (choose_.chance(50))
-    line(fmt::format("illuminance ({}{}, {}, {}) {{", category, expression(Type::kPoint, 2, false),
-                     expression(Type::kVector, 2, false), expression(Type::kFloat, 2, false)));
-  else
-    line(fmt::format("illuminance ({}{}) {{", category, expression(Type::kPoint, 2, false)));
+    head += fmt::format(", {}, {}", expression(Type::kVector, 2, false), expression(Type::kFloat, 2, false));
+  if (choose_.chance(20)) head += fmt::format(", \"send:light:w\", {}", expression(Type::kFloat, 2, false));
+  line(fmt::format("illuminance ({}) {{", head));
   in_illuminance_ = true;
   ++divergence_;
+  if (const std::vector<const Variable*> targets = variables(Type::kFloat, false, true);
+      choose_.chance(30) && !targets.empty())
+    line(fmt::format("  lightsource(\"w\", {});", one_of(targets)->name));
   scope_.push_back({"Cl", Type::kColor, 0, false, false});
   scope_.push_back({"L", Type::kVector, 0, false, false});
   ++loops_;
@@ -157,6 +160,18 @@ void ProgramWriter::print() {
   if (loops_ > 0 || in_function_) return assignment();
   line(fmt::format("printf(\"%f %c %s\\n\", {}, {}, {});", expression(Type::kFloat, 2, false),
                    expression(Type::kColor, 2, false), expression(Type::kString, 2, true)));
+}
+
+// A function in the shader that reads and sets one of its variables.
+void ProgramWriter::nested_function() {
+  std::vector<const Variable*> targets = variables(Type::kFloat, false, true);
+  std::erase_if(targets, [](const Variable* v) { return v->uniform; });
+  if (nesting_ != 1 || in_function_ || targets.empty()) return assignment();
+  const std::string name = one_of(targets)->name, function = fmt::format("nested{}", next_name_++);
+  line(fmt::format(
+      "float {}(float x) {{ extern float {}; if (x > {}) {{ {} = x; return x * 2; }} {} -= 1; return {}; }}",
+      function, name, name, name, name, name));
+  functions_.push_back({function, Type::kFloat, {{"x", Type::kFloat, 0, false, false, false}}});
 }
 
 void ProgramWriter::call_statement() {
@@ -179,7 +194,7 @@ void ProgramWriter::call_statement() {
 void ProgramWriter::statement() {
   if (statements_left_-- <= 0 || choose_.at_end()) return;
   bool deep = nesting_ >= kNesting;
-  switch (choose_.below(13)) {
+  switch (choose_.below(14)) {
   case 0:
   case 1:
   case 2: return assignment();
@@ -193,6 +208,7 @@ void ProgramWriter::statement() {
   case 10: return call_statement();
   case 11: return deep ? assignment() : illuminance();
   case 12: return print();
+  case 13: return nested_function();
   }
 }
 

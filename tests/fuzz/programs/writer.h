@@ -56,6 +56,7 @@ private:
   void jump();
   void illuminance();
   void print();
+  void nested_function();
   void call_statement();
   void function(const std::string& name);
   void line(const std::string& text);
