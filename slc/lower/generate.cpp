@@ -40,8 +40,10 @@ std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slv
     for (const Annotation& a : shader.annotations)
       p.annotations.push_back({a.id, a.text});
     p.facts = collect_facts(compiled.module);
-    slvm::ir::emit(compiled.module, p);
     p.ir = slvm::ir::serialise(compiled.module);
+    if (options.optimise >= 2 && slvm::ir::fuse_products(compiled.module))
+      slvm::ir::infer_detail(compiled.module);
+    slvm::ir::emit(compiled.module, p);
     assert(slvm::verify_program(p).empty());
   }
   return out;

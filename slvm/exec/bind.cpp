@@ -126,6 +126,7 @@ std::unique_ptr<const Program> specialise(const Program& program, const BoundVal
     });
   });
   ir::optimise(*module, 2, &evaluator);
+  if (ir::fuse_products(*module)) ir::infer_detail(*module);
   auto out = std::make_unique<Program>(program);
   out->ir.clear();
   ir::emit(*module, *out);

@@ -28,6 +28,12 @@ inline Vec3 mul_vf(Vec3 a, Float b) {
 inline Vec3 mul_fv(Float a, Vec3 b) {
   return b * a;
 }
+inline Vec3 muladd_vvv(Vec3 a, Vec3 b, Vec3 c) {
+  return a * b + c;
+}
+inline Vec3 muladd_vfv(Vec3 a, Float b, Vec3 c) {
+  return a * b + c;
+}
 inline Vec3 div_vv(Vec3 a, Vec3 b) {
   return a / b;
 }

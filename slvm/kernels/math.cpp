@@ -27,6 +27,9 @@ inline Float sub_ff(Float a, Float b) {
 inline Float mul_ff(Float a, Float b) {
   return a * b;
 }
+inline Float muladd_fff(Float a, Float b, Float c) {
+  return a * b + c;
+}
 inline Float div_ff(Float a, Float b) {
   return a / b;
 }

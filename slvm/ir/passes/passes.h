@@ -43,6 +43,10 @@ bool merge_light_loops(Module&);
 /// Turns small ifs without effects into selections of both sides' values.
 bool select_small_ifs(Module&);
 
+/// Computes sums of products in one instruction. Just before emission: other passes, those of bind-time
+/// specialisation too, know no fused ones.
+bool fuse_products(Module&);
+
 /// Decides which values and arrays are uniform: those that depend on nothing varying, by data or by control.
 /// Fills ValueInfo::varying and Array::varying.
 void infer_detail(Module&);

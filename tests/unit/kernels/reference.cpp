@@ -68,6 +68,7 @@ constexpr Reference kScalars[] = {
     {"min", 2, SL_BINARY(std::min(a, b))},
     {"max", 2, SL_BINARY(std::max(a, b))},
     {"clamp", 3, [](Row, In in, Out out) { out[0] = clamp_as_the_language(in[0], in[1], in[2]); }},
+    {"muladd", 3, [](Row, In in, Out out) { out[0] = Expected(in[0] * in[1] + in[2], std::abs(in[0] * in[1])); }},
     {"mix", 3,
      [](Row, In in, Out out) {
        double a = (1 - in[2]) * in[0], b = in[2] * in[1];

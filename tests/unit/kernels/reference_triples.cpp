@@ -194,6 +194,14 @@ constexpr Reference kTriples[] = {
        for (int i = 0; i < 3; ++i)
          out[i] = in[i] < in[3 + i] ? in[3 + i] : in[i] > in[6 + i] ? in[6 + i] : in[i];
      }},
+    {"muladd", -1,
+     [](Row s, In in, Out out) {
+       const bool by_float = s.params[1].type == Type::kFloat;
+       for (int i = 0; i < 3; ++i) {
+         const double product = in[i] * in[by_float ? 3 : 3 + i];
+         out[i] = Expected(product + in[(by_float ? 4 : 6) + i], std::abs(product));
+       }
+     }},
     {"mix", -1,
      [](Row s, In in, Out out) {
        for (int i = 0; i < 3; ++i) {
