@@ -205,9 +205,12 @@ void Machine::report(const RuntimeMessage& message) const {
         known.severity == message.severity && known.text == message.text) {
       known.points += message.points;
       known.total += message.total;
+      known.times += message.times;
       return;
     }
-  if (messages_.size() < kMaxMessages) messages_.push_back(message);
+  if (messages_.size() >= kMaxMessages) return;
+  messages_.push_back(message);
+  if (options_.on_message) options_.on_message(message);
 }
 
 std::vector<RuntimeMessage> Machine::messages() const {

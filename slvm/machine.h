@@ -15,6 +15,7 @@
 #include "slvm/support/string_pool.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -23,6 +24,7 @@
 
 namespace slvm {
 
+class ExecutionObserver; // slvm/exec/observer.h
 struct KernelTable;
 namespace ir {
 class ConstantEvaluator;
@@ -38,6 +40,10 @@ struct MachineOptions {
   bool specialise = true;
   /// Fill registers with signalling NaN before each run, so that a read of an unset value shows.
   bool poison_registers = false;
+  /// For an application's log: called with each run-time message when it first occurs, by the thread whose
+  /// shader it is of, one call at a time. Repetitions, the same text from the same line of the same shader,
+  /// are folded: Machine::messages() has their counts. It must not call the machine.
+  std::function<void(const RuntimeMessage&)> on_message = {};
 };
 
 /// A compiled shader, loaded and verified. Immutable, shared between threads.
@@ -115,7 +121,7 @@ public:
   StringPool& strings() const { return strings_; }
   const KernelTable& kernels() const { return *kernels_; }
 
-  /// Run-time messages so far, each once with its count, in order of file and line.
+  /// Run-time messages so far, each once with its counts, in order of file and line.
   std::vector<RuntimeMessage> messages() const;
   void report(const RuntimeMessage&) const;
   /// Different messages kept; more are dropped.
@@ -150,6 +156,10 @@ public:
   void shade_displaced(const ShaderSet&, Grid&);
   /// One shader of any kind by itself (imagers; lights in tests: set Ps, read Cl and L).
   void run(const Instance&, Grid&);
+
+  /// From now on `observer` is told of each instruction that runs (slvm/exec/observer.h); null: nobody is,
+  /// which costs nothing.
+  void observe(ExecutionObserver* observer);
 
   /// Values of an output parameter after the run; valid until the next one. Null: no such parameter.
   const Planes* output(const Instance&, std::string_view name) const;

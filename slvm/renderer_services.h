@@ -34,7 +34,7 @@ struct ShadingState {
 
 enum class MessageSeverity : uint8_t { kWarning, kError };
 
-/// A run-time message: reported once for each shader, line and text, with the number of points concerned.
+/// A run-time message: kept once for each shader, line and text, with the number of points concerned.
 struct RuntimeMessage {
   MessageSeverity severity = MessageSeverity::kError;
   std::string file; ///< of the RSL source
@@ -42,6 +42,7 @@ struct RuntimeMessage {
   std::string shader; ///< e.g. surface "plastic"
   std::string text;
   uint64_t points = 0, total = 0; ///< points concerned, of all the points the statement ran for
+  uint64_t times = 1;             ///< how often it was reported: grids, and rounds of loops
 };
 
 class RendererServices {
@@ -66,7 +67,8 @@ public:
   /// Who looks up textures; null: nobody, and every lookup is a run-time message.
   virtual TextureServices* textures() { return nullptr; }
 
-  /// Text of printf, in order within one grid.
+  /// Text of printf, in order within one grid, as it is printed. Warnings and errors of running shaders go
+  /// another way: MachineOptions::on_message.
   virtual void print(const ShadingState&, std::string_view text) = 0;
 };
 

@@ -96,6 +96,10 @@ void light_to_grid(ShaderRun& run, Grid& grid) {
 
 } // namespace
 
+void ShadingContext::observe(ExecutionObserver* observer) {
+  impl_->state.observer = observer;
+}
+
 void ShadingContext::displace(const ShaderSet& set, Grid& grid) {
   impl_->begin(set, grid);
   impl_->state.displacement = impl_->state.surface = impl_->state.atmosphere = nullptr;

@@ -1,5 +1,7 @@
 // The dispatch loop. Grid level and strip blocks run the same code; they differ in the frame (where operands
-// are, how many lanes) and in whose mask stack control flow works on.
+// are, how many lanes) and in whose mask stack control flow works on. It is compiled twice: with an observer
+// told of each instruction, and without.
+#include "slvm/exec/observer.h"
 #include "slvm/exec/run.h"
 
 #include <algorithm>
@@ -135,6 +137,14 @@ void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<con
   target.grid_op({*this, info, grid_operands_, level, pc});
 }
 
+void ShaderRun::run_code(Frame& frame, uint32_t pc) {
+  if (state.observer)
+    execute_code<true>(frame, mask, pc);
+  else
+    execute_code<false>(frame, mask, pc);
+}
+
+template <bool kObserved>
 void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end,
                            bool all) {
   size_t strip = std::min<size_t>(state.machine.options().strip_points, pitch);
@@ -158,7 +168,7 @@ void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32
     f.context.first_point = static_cast<uint32_t>(first);
     f.end = f.lanes;
     narrow(f, strip_mask_);
-    execute_code(f, strip_mask_, body);
+    execute_code<kObserved>(f, strip_mask_, body);
   }
 }
 
@@ -182,7 +192,7 @@ void ShaderRun::narrow(Frame& f, const MaskStack& m) {
   f.end = (last / kMaxLanes + 1) * kMaxLanes;
 }
 
-void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
+template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
   const uint32_t* code = program.code.data();
   const Instance::Bound::Import* imports = bound.imports.data();
   for (;;) {
@@ -191,19 +201,22 @@ void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
     uint32_t count = instruction_words(code[at]);
     const uint32_t* w = code + at + 1;
     pc += 1 + count;
+    if constexpr (kObserved)
+      if (!state.observer->before({*this, f, m, at})) continue;
     if (opcode >= kFirstShadeop) {
       Kernel kernel = imports[opcode - kFirstShadeop].kernel;
       if (kernel && f.resolved)
         call_kernel(f, kernel, f.resolved + (w - code), count);
       else
         call(f, at, static_cast<uint16_t>(opcode - kFirstShadeop), {w, count});
+      if constexpr (kObserved) state.observer->after({*this, f, m, at});
       continue;
     }
     switch (static_cast<Opcode>(opcode)) {
     case Opcode::k_end:
     case Opcode::k_endstrip: return;
     case Opcode::k_strip:
-      run_strips(f, m, pc, w[0], w[1] != 0);
+      run_strips<kObserved>(f, m, pc, w[0], w[1] != 0);
       pc = w[0] + 1; // past the endstrip, which is one word
       break;
     case Opcode::k_mov: copy_planes(f, m, {w, count}, false); break;

@@ -1,6 +1,8 @@
 // Setting up a run: register memory, and where each external variable of the program is.
 #include "slvm/exec/run.h"
 
+#include "slvm/exec/observer.h"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -32,9 +34,11 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal, std::spa
 
 void ShaderRun::execute() {
   Frame frame = frame_;
+  if (state.observer) state.observer->begin_run(instance);
   for (auto [section, slot] : bound.defaults)
-    if (!override_for(slot)) execute_code(frame, mask, program.sections[section]);
-  execute_code(frame, mask, program.sections[0]);
+    if (!override_for(slot)) run_code(frame, program.sections[section]);
+  run_code(frame, program.sections[0]);
+  if (state.observer) state.observer->end_run(instance);
 }
 
 void ShaderRun::bind_registers() {
@@ -191,13 +195,14 @@ const Planes* ShaderRun::parameter(std::string_view name) const {
 }
 
 void ShaderRun::report(uint32_t code, MessageSeverity severity, std::string text, size_t count) const {
-  RuntimeMessage message{severity, program.source_name, 0, {}, std::move(text), count, points};
-  auto after = std::upper_bound(program.lines.begin(), program.lines.end(), code,
-                                [](uint32_t c, const LineEntry& l) { return c < l.code; });
-  if (after != program.lines.begin()) {
-    message.line = std::prev(after)->line;
-    if (std::prev(after)->file < program.files.size()) message.file = program.files[std::prev(after)->file];
-  }
+  const SourcePlace place = place_of(program, code);
+  RuntimeMessage message;
+  message.severity = severity;
+  message.file = place.line ? place.file : program.source_name;
+  message.line = place.line;
+  message.text = std::move(text);
+  message.points = count;
+  message.total = points;
   message.shader = std::string(shader_kind_name(program.kind)) + " \"" + program.name + "\"";
   state.machine.report(message);
 }

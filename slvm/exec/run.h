@@ -24,6 +24,7 @@ struct GridState {
   const ShaderRun* displacement = nullptr;
   const ShaderRun* surface = nullptr;
   const ShaderRun* atmosphere = nullptr;
+  ExecutionObserver* observer = nullptr; ///< told of each instruction; null: nobody
 };
 
 /// Where operands are, for the lanes being run: a strip, or the whole grid.
@@ -109,7 +110,9 @@ private:
   float* take(size_t floats);
 
   // The interpreter proper (interpreter.cpp).
-  void execute_code(Frame& frame, MaskStack& mask, uint32_t pc);
+  void run_code(Frame& frame, uint32_t pc);
+  template <bool kObserved> void execute_code(Frame& frame, MaskStack& mask, uint32_t pc);
+  template <bool kObserved>
   void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end, bool all);
   void call(const Frame& frame, uint32_t pc, uint16_t import, std::span<const uint32_t> words);
   void copy_planes(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words, bool masked);

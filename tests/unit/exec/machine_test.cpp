@@ -120,6 +120,27 @@ TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
   EXPECT_EQ(messages[0].points, 10u);
 }
 
+TEST_F(MachineTest, MessagesReachTheApplicationAsTheyOccurAndAreFolded) {
+  std::vector<RuntimeMessage> log;
+  Machine logged({.on_message = [&](const RuntimeMessage& m) { log.push_back(m); }});
+  auto surface =
+      instantiate(logged, "surface s() {\n warning(\"old\");\n if (u > 0.6) error(\"u is %g\", u);\n}");
+  Grid grid = square(5, 1);
+  ShadingContext context(logged, services);
+  for (int i = 0; i < 3; ++i)
+    context.shade({.surface = surface.get()}, grid);
+  ASSERT_EQ(log.size(), 2u);
+  EXPECT_EQ(log[0].text, "old");
+  EXPECT_EQ(log[0].severity, MessageSeverity::kWarning);
+  EXPECT_EQ(log[1].text, "u is 0.75");
+  EXPECT_EQ(log[1].line, 3u);
+  EXPECT_EQ(log[1].points, 2u);
+  std::vector<RuntimeMessage> folded = logged.messages();
+  ASSERT_EQ(folded.size(), 2u);
+  EXPECT_EQ(folded[1].times, 3u);
+  EXPECT_EQ(folded[1].points, 6u);
+}
+
 TEST_F(MachineTest, UnknownSpacesAreReported) {
   shade("surface s() { Ci = xcomp(transform(\"nowhere\", P)); }");
   ASSERT_EQ(machine.messages().size(), 1u);
