@@ -1,5 +1,5 @@
 # Runs COMMAND and compares its exit status with STATUS and what it prints, stdout and stderr together, with TEXTS:
-# parts separated by '|', each of which must occur.
+# parts separated by '|' (\p is one that is meant), each of which must occur.
 separate_arguments(command UNIX_COMMAND "${COMMAND}")
 execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
 if(NOT status STREQUAL STATUS)
@@ -9,6 +9,7 @@ string(REPLACE "|" ";" texts "${TEXTS}")
 foreach(text IN LISTS texts)
   string(REPLACE "\\n" "\n" text "${text}")
   string(REPLACE "\\t" "\t" text "${text}")
+  string(REPLACE "\\p" "|" text "${text}")
   string(FIND "${out}" "${text}" at)
   if(at EQUAL -1)
     message(FATAL_ERROR "'${text}' is missing in:\n${out}")

@@ -43,6 +43,9 @@ public:
       f.text += variant("");
       report_.failures.push_back(std::move(f));
     }
+    if (options_.watch)
+      for (const std::string& text : options_.watch->run(case_.setup, prepared_, library_, config))
+        report_.failures.push_back({Where(), text + variant("")});
     if (!report_.failures.empty() || options_.quick || case_.quick) return;
     run_same_target(config, result);
     run_other_targets(config);

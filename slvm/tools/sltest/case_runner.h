@@ -3,6 +3,7 @@
 #pragma once
 
 #include "slvm/tools/sltest/expect.h"
+#include "slvm/tools/sltest/watch.h"
 
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@ namespace slvm::sltest {
 struct RunnerOptions {
   bool quick = false; ///< one configuration only
   RunConfig config;   ///< the one that expectations are checked in
+  Watch* watch = nullptr;
 };
 
 /// Failures without a place (an empty file name) name one in their text.

@@ -86,7 +86,7 @@ ShaderPtr compile_code(ShaderLibrary& library, const std::string& code, std::spa
   auto attempt = [&](Type type, bool assigned) {
     ShaderError failure;
     ShaderPtr shader = library.compile(kWrapperName, shader_text(code, formals, type, assigned, options),
-                                       options.opt_level, options.path, failure);
+                                       options.mode, options.path, failure);
     const size_t errors = count_errors(failure.text); // the attempt nearest to success explains best
     if (!shader && (error.text.empty() || errors < fewest)) {
       error = failure;

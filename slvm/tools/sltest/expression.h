@@ -38,7 +38,7 @@ bool mentions(std::string_view code, std::string_view word);
 struct CodeOptions {
   std::string label = "--expr";
   uint32_t first_line = 1, first_column = 1;
-  int opt_level = 2;
+  CompileMode mode;
   std::vector<Type> types;
   std::vector<std::string> path;
   std::string prelude; ///< lines before the shader

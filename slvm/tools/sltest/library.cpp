@@ -3,6 +3,7 @@
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
+#include "slvm/tools/sltest/instrument.h"
 
 #include <fmt/format.h>
 
@@ -22,9 +23,10 @@ struct ShaderLibrary::Tools {
 ShaderLibrary::ShaderLibrary() : tools_(std::make_unique<Tools>()) {}
 ShaderLibrary::~ShaderLibrary() = default;
 
-ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& source, int opt_level,
+ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& source, CompileMode mode,
                                  std::span<const std::string> path, ShaderError& error) {
-  ShaderPtr& shader = shaders_[fmt::format("{}\n{}\n{}", opt_level, name, source)];
+  ShaderPtr& shader = shaders_[fmt::format("{} {}\n{}\n{}", mode.opt_level,
+                                           mode.instrumenter ? mode.instrumenter->id() : 0, name, source)];
   if (shader) return shader;
 
   SourceManager sources;
@@ -33,10 +35,15 @@ ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& sou
   for (const auto& [file, text] : texts_)
     sources.add(file, text);
   slc::CompileOptions options;
-  options.optimise = opt_level;
+  options.optimise = mode.opt_level;
   options.evaluator = tools_->evaluator.get();
   options.preprocess.include_dirs.assign(path.begin(), path.end());
-  std::vector<slc::CompiledShader> compiled = tools_->compiler.compile(main, options, sources, diags);
+  slc::CheckedSource checked = tools_->compiler.check(main, options, sources, diags);
+  std::vector<slc::CompiledShader> compiled;
+  if (!diags.has_errors()) {
+    if (mode.instrumenter) mode.instrumenter->instrument(checked, sources);
+    compiled = tools_->compiler.generate(checked, main, options, sources);
+  }
   std::string messages = format_diagnostics(diags, sources);
   if (diags.has_errors() || compiled.empty()) {
     error = {false,
@@ -67,7 +74,7 @@ ShaderPtr ShaderLibrary::load(const std::string& file, ShaderError& error) {
   return std::make_shared<const CompiledShader>(CompiledShader{std::move(*bytes), std::move(*program), ""});
 }
 
-ShaderPtr ShaderLibrary::find(const std::string& name, int opt_level, std::span<const std::string> path,
+ShaderPtr ShaderLibrary::find(const std::string& name, CompileMode mode, std::span<const std::string> path,
                               ShaderError& error) {
   const std::string file = find_shader_file(name, path);
   if (file.empty()) {
@@ -81,7 +88,7 @@ ShaderPtr ShaderLibrary::find(const std::string& name, int opt_level, std::span<
     return nullptr;
   }
   std::string source(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  return compile(file, source, opt_level, path, error);
+  return compile(file, source, mode, path, error);
 }
 
 std::string find_shader_file(const std::string& name, std::span<const std::string> path) {

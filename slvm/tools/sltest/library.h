@@ -29,6 +29,15 @@ struct ShaderError {
   std::string text;
 };
 
+class Instrumenter;
+
+/// How sources are compiled: the optimisation level, and who marks the program before (instrument.h), or
+/// null.
+struct CompileMode {
+  int opt_level = 2;
+  Instrumenter* instrumenter = nullptr;
+};
+
 class ShaderLibrary {
 public:
   ShaderLibrary();
@@ -38,13 +47,13 @@ public:
   void add_source(const std::string& name, const std::string& text) { texts_[name] = text; }
 
   /// Compiles the first shader of `source`. `name` stands for the source in messages.
-  ShaderPtr compile(const std::string& name, const std::string& source, int opt_level,
+  ShaderPtr compile(const std::string& name, const std::string& source, CompileMode mode,
                     std::span<const std::string> path, ShaderError& error);
 
   /// The shader `name`: a path with .sl or .slo, or a bare name that is searched for, NAME.slo before
   /// NAME.sl, in the folders of `path`. Of a source with several shaders the one named like the file is
   /// taken, or else the first.
-  ShaderPtr find(const std::string& name, int opt_level, std::span<const std::string> path,
+  ShaderPtr find(const std::string& name, CompileMode mode, std::span<const std::string> path,
                  ShaderError& error);
 
 private:

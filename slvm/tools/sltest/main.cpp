@@ -35,7 +35,7 @@ std::vector<std::string> standard_folders() {
 
 /// Reads a test file and runs its cases. False: it could not be read.
 bool run_file(const std::string& name, const std::string& text, const Options& options,
-              ShaderLibrary& library, std::deque<FileReport>& reports) {
+              ShaderLibrary& library, Watch& watch, std::deque<FileReport>& reports) {
   SourceManager sources;
   Diagnostics diags;
   FileReport& report = reports.emplace_back();
@@ -49,7 +49,7 @@ bool run_file(const std::string& name, const std::string& text, const Options& o
     if (options.list)
       print(stdout, fmt::format("{}: {}\n", to_string(c.where), c.name));
     else
-      report.cases.push_back(run_case(c, library, {options.quick, options.config}));
+      report.cases.push_back(run_case(c, library, {options.quick, options.config, &watch}));
   }
   print(stdout, report_text(report, options.verbose));
   return true;
@@ -58,6 +58,7 @@ bool run_file(const std::string& name, const std::string& text, const Options& o
 int run_tests(const Options& options, ShaderLibrary& library) {
   int status = kOk;
   std::deque<FileReport> reports;
+  Watch watch(options.watch);
   for (const std::string& name : options.inputs) {
     auto bytes = read_file(name);
     if (!bytes) {
@@ -66,12 +67,16 @@ int run_tests(const Options& options, ShaderLibrary& library) {
       continue;
     }
     const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    if (!run_file(name, text, options, library, reports)) status = std::max<int>(status, kFailed);
+    if (!run_file(name, text, options, library, watch, reports)) status = std::max<int>(status, kFailed);
   }
   if (options.list) return status;
   const auto empty = [](const FileReport& r) { return r.cases.empty(); };
   if (status == kOk || !std::all_of(reports.begin(), reports.end(), empty))
-    print(stdout, summary_text(reports));
+    print(stdout, watch.report() + summary_text(reports));
+  if (auto written = watch.write_pages(); !written) {
+    print(stderr, fmt::format("sltest: {}\n", written.error()));
+    status = std::max<int>(status, kFailed);
+  }
   if (!options.junit.empty()) {
     const std::string text = junit_text(reports);
     auto written = write_file(options.junit, std::as_bytes(std::span(text.data(), text.size())));

@@ -13,7 +13,7 @@ uint32_t text_line(const ShaderRef& ref) {
 }
 
 ShaderPtr obtain_expression(const Setup& setup, const ShaderRef& ref, std::span<const Formal> formals,
-                            ShaderLibrary& library, int opt_level, ShaderError& error) {
+                            ShaderLibrary& library, CompileMode mode, ShaderError& error) {
   std::vector<Formal> all;
   for (const Setting& s : ref.params) {
     Declaration d = inferred_type(s.value, s.what);
@@ -26,7 +26,7 @@ ShaderPtr obtain_expression(const Setup& setup, const ShaderRef& ref, std::span<
   if (!ref.where.file.empty()) options.label = ref.where.file;
   options.first_line = ref.where.file.empty() ? 1 : text_line(ref);
   options.first_column = std::max(ref.where.column, 1u);
-  options.opt_level = opt_level;
+  options.mode = mode;
   if (ref.result) options.types = {*ref.result};
   options.path = setup.path;
   options.prelude = setup.prelude;
@@ -36,18 +36,18 @@ ShaderPtr obtain_expression(const Setup& setup, const ShaderRef& ref, std::span<
 } // namespace
 
 ShaderPtr obtain(const Setup& setup, const ShaderRef& ref, std::span<const Formal> formals,
-                 ShaderLibrary& library, int opt_level, RunError& error) {
+                 ShaderLibrary& library, CompileMode mode, RunError& error) {
   ShaderError why;
   ShaderPtr shader;
   if (ref.form == ShaderForm::kFile) {
-    shader = library.find(ref.text, opt_level, setup.path, why);
+    shader = library.find(ref.text, mode, setup.path, why);
   } else if (ref.form == ShaderForm::kSource) {
     std::string source = fmt::format("#line {} \"{}\"\n", text_line(ref), ref.where.file);
     if (ref.text.find('\n') == std::string::npos) source.append(std::max(ref.where.column, 1u) - 1, ' ');
     source += ref.text;
-    shader = library.compile("<source>", source, opt_level, setup.path, why);
+    shader = library.compile("<source>", source, mode, setup.path, why);
   } else {
-    shader = obtain_expression(setup, ref, formals, library, opt_level, why);
+    shader = obtain_expression(setup, ref, formals, library, mode, why);
   }
   if (!shader) error = {why.missing ? Failure::kMissing : Failure::kCompile, why.text};
   return shader;

@@ -8,6 +8,6 @@ namespace slvm::sltest {
 
 /// `formals`: what an expression may use beside its own parameters.
 ShaderPtr obtain(const Setup& setup, const ShaderRef& ref, std::span<const Formal> formals,
-                 ShaderLibrary& library, int opt_level, RunError& error);
+                 ShaderLibrary& library, CompileMode mode, RunError& error);
 
 } // namespace slvm::sltest

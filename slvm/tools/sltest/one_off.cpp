@@ -5,6 +5,7 @@
 #include "slvm/tools/sltest/expect.h"
 #include "slvm/tools/sltest/expression.h"
 #include "slvm/tools/sltest/image.h"
+#include "slvm/tools/sltest/point_set.h"
 
 #include <fmt/format.h>
 
@@ -53,7 +54,7 @@ struct ParallelRun {
 class OneOff {
 public:
   OneOff(const Options& options, ShaderLibrary& library)
-      : options_(options), library_(library), setup_(options.setup) {}
+      : options_(options), library_(library), setup_(options.setup), watch_(options.watch) {}
 
   Outcome run() {
     const auto start = std::chrono::steady_clock::now();
@@ -61,7 +62,6 @@ public:
     if (!options_.expression.empty()) library_.add_source("--expr", options_.expression);
     RunError error;
     RunConfig config = options_.config;
-    config.poison = options_.debug_uninit;
     if (!config.target.empty() && !find_kernel_table(config.target)) return unknown_target();
     if (!prepare(setup_, library_, prepared_, error)) return failure(error);
     auto binding = Binding::make(setup_, prepared_, library_, config, error);
@@ -81,10 +81,14 @@ public:
       compare(run.results[t]);
     report_messages();
     outcome_.out += result_.printed;
+    if (!watch(config)) return outcome_;
     store();
-    if (options_.print || (options_.outputs.empty() && !options_.run_stats)) print();
-    if (options_.debug_nan || options_.debug_uninit) report_bad_numbers();
+    const WatchOptions& w = options_.watch;
+    const bool reports = options_.run_stats || w.coverage || w.profile || w.probe;
+    if (options_.print || (options_.outputs.empty() && !reports)) print();
+    if (w.probe) print_probe();
     if (options_.run_stats) print_stats(run, setup_seconds);
+    outcome_.out += watch_.report();
     return outcome_;
   }
 
@@ -202,22 +206,61 @@ private:
       }
   }
 
+  /// The runs that are watched. False: there is nothing to probe.
+  bool watch(const RunConfig& config) {
+    for (const std::string& text : watch_.run(setup_, prepared_, library_, config, options_.iterations))
+      bad(text);
+    if (options_.watch.nan) report_bad_numbers();
+    if (auto written = watch_.write_pages(); !written) bad("sltest: " + written.error());
+    if (!options_.watch.probe) return true;
+    RunError error;
+    probe_ = watch_.probe(setup_, prepared_, library_, config, error);
+    if (!probe_) {
+      failure(error);
+      return false;
+    }
+    Variable v = probe_->variable();
+    std::erase_if(result_.outputs, [&](const Variable& old) { return old.name == v.name; });
+    result_.outputs.push_back(std::move(v));
+    return true;
+  }
+
+  void bad(const std::string& text) {
+    outcome_.status = std::max<int>(outcome_.status, kFailed);
+    outcome_.err += text + '\n';
+  }
+
+  /// What is not finite when all is done; where it arises was told before, unless it came out of an array.
   void report_bad_numbers() {
     for (const Variable& v : result_.outputs) {
-      size_t bad = 0, first = 0;
+      PointSet points;
+      size_t first = 0;
       for (size_t i = v.points(); i-- > 0 && !v.numbers.empty();) {
         const std::vector<float> numbers = v.at(i);
-        auto wrong = [&](float x) { return options_.debug_nan ? !std::isfinite(x) : std::isnan(x); };
-        if (std::none_of(numbers.begin(), numbers.end(), wrong)) continue;
-        ++bad;
+        if (std::all_of(numbers.begin(), numbers.end(), [](float x) { return std::isfinite(x); })) continue;
+        points.add(i, v.points());
         first = i;
       }
-      if (!bad) continue;
+      if (!points.empty())
+        bad(fmt::format("sltest: {}: not finite at {}; first {}", v.name,
+                        points.text(static_cast<size_t>(prepared_.grid.nu)), numbers_text(v.at(first))));
+    }
+  }
+
+  void print_probe() {
+    const std::string& name = options_.watch.probe->name;
+    for (size_t i = 0; i < prepared_.grid.points(); ++i) {
       const size_t nu = static_cast<size_t>(prepared_.grid.nu);
-      outcome_.status = std::max<int>(outcome_.status, kFailed);
-      outcome_.err += fmt::format("sltest: {}: {} at {} of {} points, first at ({}, {}): {}\n", v.name,
-                                  options_.debug_nan ? "not finite" : "made from values never set", bad,
-                                  v.points(), first % nu, first / nu, numbers_text(v.at(first)));
+      outcome_.out += fmt::format("Pixel ({}, {}):\n  {} : ", i % nu, i / nu, name);
+      if (!probe_->reached(i)) {
+        outcome_.out += "not reached\n";
+        continue;
+      }
+      const std::vector<Probe::Pass>& passes = probe_->passes(i);
+      std::string text;
+      for (size_t k = options_.each_pass ? 0 : passes.size() - 1; k < passes.size(); ++k)
+        text += (text.empty() ? "" : " | ") + numbers_text(passes[k].numbers) + passes[k].text;
+      outcome_.out += text + '\n';
     }
   }
 
@@ -244,6 +287,8 @@ private:
   Prepared prepared_;
   RunResult result_;
   Outcome outcome_;
+  Watch watch_;
+  std::unique_ptr<Probe> probe_;
 };
 
 } // namespace

@@ -37,6 +37,8 @@ EXAMPLES
   sltest noisy.sl -g 256 256 --iters 100 -t 2 --runstats
   sltest tests/shadeops/*.toml --junit report.xml
   sltest plastic.toml --filter highlight -v
+  sltest shaders/*.toml --coverage-pages coverage
+  sltest wood.sl -g 64 64 --probe wood.sl:42:ring -o ring ring.exr
 
 EXIT STATUS
   0 fine; 1 a test failed, or a shader is wrong; 2 wrong usage; 3 a file is missing; 4 internal error
@@ -48,7 +50,7 @@ struct Texts {
   std::vector<int> resolution;
   std::vector<std::pair<std::string, std::string>> params;
   std::vector<std::string> settings, lights;
-  std::string path;
+  std::string path, probe;
 };
 
 /// `--param:type=color NAME VALUE` becomes `--param "color NAME" VALUE`.
@@ -117,6 +119,20 @@ std::vector<std::string> split_path(const std::string& text) {
   return folders;
 }
 
+/// "FILE:LINE:NAME".
+bool set_probe(const std::string& text, Options& options) {
+  const size_t name = text.rfind(':');
+  if (name == std::string::npos || name == 0) return false;
+  const size_t line = text.rfind(':', name - 1);
+  if (line == std::string::npos || line == 0 || name + 1 == text.size()) return false;
+  ProbeTarget target{text.substr(0, line), 0, text.substr(name + 1)};
+  const std::string number = text.substr(line + 1, name - line - 1);
+  target.line = static_cast<uint32_t>(std::atoi(number.c_str()));
+  if (target.line == 0) return false;
+  options.watch.probe = std::move(target);
+  return true;
+}
+
 /// What CLI11 collected as texts, in the form that runs.
 std::string finish(const Texts& texts, Options& options) {
   std::string error;
@@ -130,12 +146,18 @@ std::string finish(const Texts& texts, Options& options) {
     if (!add_variable(s, options.setup, error)) return error;
   for (const std::string& s : texts.lights)
     if (!add_light(s, options.setup, error)) return error;
+  if (!texts.probe.empty() && !set_probe(texts.probe, options)) {
+    return fmt::format("--probe {}: write FILE.sl:LINE:NAME", texts.probe);
+  }
+  if (!options.watch.coverage_folder.empty()) options.watch.coverage = true;
   options.path = split_path(texts.path);
   options.config.specialise = !options.no_specialise;
   bool tests = false, shaders = !options.expression.empty();
   for (const std::string& input : options.inputs)
     (input.ends_with(".toml") ? tests : shaders) = true;
   if (tests && shaders) return "test files and shaders cannot be run together";
+  if (tests && options.watch.probe) return "--probe is for one shader, not for test files";
+  if (options.each_pass && !options.watch.probe) return "--probe-each goes with --probe";
   if (!tests && !shaders) return "give a test file, a shader, or --expr";
   if (!tests && options.inputs.size() + !options.expression.empty() > 1)
     return "only one shader can be run at a time";
@@ -179,9 +201,25 @@ void add_run_options(CLI::App& app, Options& o, Texts& texts) {
       ->check(CLI::Range(0, 1024).description(""));
   group(app.add_flag("--runstats", o.run_stats, "Print times"));
   group(
-      app.add_flag("--debugnan", o.debug_nan, "Report results that are not finite, and exit with status 1"));
-  group(app.add_flag("--debuguninit", o.debug_uninit,
-                     "Report results made from values that were never set; status 1"));
+      app.add_option("--probe", texts.probe,
+                     "Print the value of a local variable behind a line, point by point; -o NAME stores it"))
+      ->type_name("FILE:LINE:NAME");
+  group(app.add_flag("--probe-each", o.each_pass, "With --probe: the values of all passes of a loop"));
+}
+
+void add_watch_options(CLI::App& app, Options& o) {
+  constexpr const char* kGroup = "Watching shaders run, in tests too";
+  auto group = [](CLI::Option* option) { option->group(kGroup); };
+  group(app.add_flag("--debugnan", o.watch.nan,
+                     "Name the lines where numbers that are not finite arise; status 1"));
+  group(app.add_flag("--debuguninit", o.watch.uninit,
+                     "Name the lines where variables are read that were never set; status 1"));
+  group(app.add_flag("--coverage", o.watch.coverage,
+                     "Tell which lines and branches of the tested shaders ran"));
+  group(app.add_option("--coverage-pages", o.watch.coverage_folder,
+                       "The same, and write a page for each source, and index.html, into this folder")
+            ->type_name("FOLDER"));
+  group(app.add_flag("--profile", o.watch.profile, "Print time and points by line of source"));
 }
 
 void add_common_options(CLI::App& app, Options& o, Texts& texts) {
@@ -210,6 +248,7 @@ ParseOutcome parse_options(int argc, const char* const* argv, Options& options) 
   app.add_option("INPUT", options.inputs,
                  "Test files (.toml), or one shader: .sl, .slo, or a name to be searched for");
   add_run_options(app, options, texts);
+  add_watch_options(app, options);
   add_common_options(app, options, texts);
   constexpr const char* kTests = "Running test files";
   app.add_option("--filter", options.filter, "Run only cases whose name matches this regular expression")

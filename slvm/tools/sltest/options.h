@@ -3,6 +3,7 @@
 
 #include "slvm/tools/sltest/run.h"
 #include "slvm/tools/sltest/setup.h"
+#include "slvm/tools/sltest/watch.h"
 
 #include <string>
 #include <utility>
@@ -23,8 +24,10 @@ struct Options {
   Setup setup;                                              ///< without the shader
   std::vector<std::pair<std::string, std::string>> outputs; ///< variable, file or "null"
   bool no_specialise = false;
-  bool print = false, debug_nan = false, debug_uninit = false, run_stats = false;
+  bool print = false, run_stats = false, each_pass = false;
   int iterations = 1, threads = 1;
+  // Both
+  WatchOptions watch;
   RunConfig config;
   std::vector<std::string> path; ///< of --path
 };

@@ -123,7 +123,7 @@ bool prepare(const Setup& setup, ShaderLibrary& library, Prepared& prepared, Run
       !read_values(setup.options, prepared.scene.options, error))
     return false;
   if (setup.shader.form != ShaderForm::kExpression) {
-    ShaderPtr shader = obtain(setup, setup.shader, {}, library, 2, error);
+    ShaderPtr shader = obtain(setup, setup.shader, {}, library, {}, error);
     if (!shader) return false;
     prepared.kind = shader->program.kind;
   }

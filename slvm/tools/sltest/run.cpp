@@ -59,7 +59,9 @@ const Variable* RunResult::find(std::string_view name) const {
 std::unique_ptr<Instance> Binding::bind(const Setup& setup, const ShaderRef& ref, ShaderLibrary& library,
                                         const RunConfig& config, RunError& error) {
   const std::vector<Formal> formals = primvar_formals(prepared_->grid);
-  ShaderPtr compiled = obtain(setup, ref, formals, library, config.opt_level, error);
+  const bool marked = config.instrument_all || &ref == &setup.shader;
+  const CompileMode mode{config.opt_level, marked ? config.instrumenter : nullptr};
+  ShaderPtr compiled = obtain(setup, ref, formals, library, mode, error);
   if (!compiled) return nullptr;
   warnings_ += compiled->warnings;
   auto shader = machine_.load(compiled->slo);
@@ -87,7 +89,6 @@ std::unique_ptr<Binding> Binding::make(const Setup& setup, const Prepared& prepa
   options.strip_points = config.strip;
   options.target = config.target;
   options.specialise = config.specialise;
-  options.poison_registers = config.poison;
   std::unique_ptr<Binding> binding(new Binding(options));
   binding->prepared_ = &prepared;
   binding->main_ = binding->bind(setup, setup.shader, library, config, error);

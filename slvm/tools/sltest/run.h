@@ -20,8 +20,9 @@ struct RunConfig {
   uint32_t strip = 128;
   int opt_level = 2;
   bool specialise = true;
-  std::string target; ///< "": the best there is
-  bool poison = false;
+  std::string target;                   ///< "": the best there is
+  Instrumenter* instrumenter = nullptr; ///< marks sources, for observers of the run
+  bool instrument_all = true;           ///< false: the shader under test only
 };
 /// "strips of 128, -O2, specialised".
 std::string describe(const RunConfig&);
@@ -80,6 +81,8 @@ public:
   explicit Worker(const Binding& binding);
   /// Fills the grid anew and shades it; returns the seconds shading took.
   double shade();
+  /// From now on `observer` watches; null: nobody.
+  void observe(ExecutionObserver* observer) { context_.observe(observer); }
   /// What the last shade() computed.
   RunResult result() const;
 

@@ -1,0 +1,28 @@
+# Coverage of watched.toml as pages in FOLDER: every line but that of the unused function ran, over both cases together.
+file(REMOVE_RECURSE ${FOLDER})
+execute_process(COMMAND ${SLTEST} ${INPUT} --coverage-pages ${FOLDER} RESULT_VARIABLE status OUTPUT_VARIABLE out)
+if(NOT status EQUAL 0 OR NOT out MATCHES "lines 14 of 15 [(]93%[)], branches 8 of 8 [(]100%[)]\n    not run: 16\n")
+  message(FATAL_ERROR "exit status ${status}:\n${out}")
+endif()
+file(GLOB pages RELATIVE ${FOLDER} ${FOLDER}/*)
+list(FILTER pages INCLUDE REGEX "(watched.sl|index).html$")
+list(LENGTH pages count)
+if(NOT count EQUAL 2)
+  message(FATAL_ERROR "not the pages wanted: ${pages}")
+endif()
+file(GLOB page ${FOLDER}/*watched.sl.html)
+file(READ ${page} text)
+file(READ ${FOLDER}/index.html index)
+foreach(part
+    "<tr class=\"missed\"><td class=\"n\">16</td><td class=\"n\">0</td>"
+    "<tr class=\"run\"><td class=\"n\">23</td><td class=\"n\">6</td><td class=\"c\">  if (u &gt; 0.4) {</td><td>if true 5 false 1</td>"
+    "lines 14 of 15, branches 8 of 8")
+  string(FIND "${text}" "${part}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "'${part}' is missing in:\n${text}")
+  endif()
+endforeach()
+if(NOT index MATCHES "watched.sl.html")
+  message(FATAL_ERROR "the page is not in the index:\n${index}")
+endif()
+message("pages are right")
