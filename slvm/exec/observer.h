@@ -36,7 +36,8 @@ struct StepOperand {
   std::string_view variable; ///< the external variable it is, or ""
 };
 
-/// One instruction on some points of a grid: all of them, or those of a strip. Valid during the callback only.
+/// One instruction on some points of a grid: all of them, or those of a strip. Valid during the callback
+/// only.
 class ExecutionStep {
 public:
   ExecutionStep(const ShaderRun& run, const Frame& frame, const MaskStack& mask, uint32_t code)
@@ -53,7 +54,8 @@ public:
   /// Operands of a call, those it stores first.
   std::vector<StepOperand> operands() const;
 
-  /// Points [first_point(), first_point() + points()) are looked at; those that are active have a bit in mask().
+  /// Points [first_point(), first_point() + points()) are looked at; those that are active have a bit in
+  /// mask().
   size_t first_point() const;
   size_t points() const;
   std::span<const uint64_t> mask() const;

@@ -40,7 +40,8 @@ void Profiler::end_run(const Instance&) {
 
 void Profiler::collect(std::map<Key, ProfileLine>& lines) const {
   auto add = [&](const ProfileLine& l) {
-    ProfileLine& sum = lines.try_emplace({l.file, l.line}, ProfileLine{l.file, l.line, 0, 0, 0}).first->second;
+    ProfileLine& sum =
+        lines.try_emplace({l.file, l.line}, ProfileLine{l.file, l.line, 0, 0, 0}).first->second;
     sum.seconds += l.seconds;
     sum.points += l.points;
     sum.instructions += l.instructions;
@@ -63,7 +64,8 @@ void Profiler::collect(std::map<Key, ProfileLine>& lines) const {
       line.line = place.line;
       line.seconds += cell.seconds;
       if (cell.call && with_calls.insert({line.file, line.line}).second) line.points = 0;
-      if (cell.call || !with_calls.contains({line.file, line.line})) line.points = std::max(line.points, cell.points);
+      if (cell.call || !with_calls.contains({line.file, line.line}))
+        line.points = std::max(line.points, cell.points);
       line.instructions += cell.instructions;
     }
     for (const auto& [key, line] : own)

@@ -17,9 +17,9 @@ namespace slvm {
 
 struct ProfileLine {
   std::string file;
-  uint32_t line = 0;  ///< 0: what has no place in the source
-  double seconds = 0; ///< of the line itself; lights it runs have lines of their own
-  uint64_t points = 0; ///< how often it ran, counted for each point
+  uint32_t line = 0;         ///< 0: what has no place in the source
+  double seconds = 0;        ///< of the line itself; lights it runs have lines of their own
+  uint64_t points = 0;       ///< how often it ran, counted for each point
   uint64_t instructions = 0; ///< dispatched, each for many points
 };
 

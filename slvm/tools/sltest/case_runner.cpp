@@ -1,6 +1,7 @@
 #include "slvm/tools/sltest/case_runner.h"
 
 #include "slvm/kernels/table.h"
+#include "slvm/tools/sltest/sweep.h"
 #include "slvm/tools/sltest/table.h"
 
 #include <fmt/format.h>
@@ -39,10 +40,7 @@ public:
     ++report_.runs;
     if (!case_.bind_error.empty()) return fail("binding should fail, but it succeeds");
     if (!case_.compile_error.empty()) return fail("compiling should fail, but it succeeds");
-    for (CheckFailure& f : check(case_, prepared_, result, library_)) {
-      f.text += variant("");
-      report_.failures.push_back(std::move(f));
-    }
+    check_all(result, "");
     if (options_.watch)
       for (const std::string& text : options_.watch->run(case_.setup, prepared_, library_, config))
         report_.failures.push_back({Where(), text + variant("")});
@@ -52,6 +50,16 @@ public:
   }
 
 private:
+  void check_all(const RunResult& result, const std::string& target) {
+    std::vector<CheckFailure> failures = check(case_, prepared_, result, library_);
+    for (CheckFailure& f : check_goldens(case_, prepared_, result, options_.goldens, report_.updated))
+      failures.push_back(std::move(f));
+    for (CheckFailure& f : failures) {
+      f.text += variant(target);
+      report_.failures.push_back(std::move(f));
+    }
+  }
+
   void fail(const std::string& text) {
     // Text that begins with a place of its own needs no other.
     const bool placed = text.starts_with(case_.where.file + ":");
@@ -129,10 +137,7 @@ private:
       config.target = target;
       RunResult result;
       if (!rerun(config, result)) return;
-      for (CheckFailure& f : check(case_, prepared_, result, library_)) {
-        f.text += variant(target);
-        report_.failures.push_back(std::move(f));
-      }
+      check_all(result, target);
     }
   }
 
@@ -149,8 +154,9 @@ CaseReport run_case(const Case& c, ShaderLibrary& library, const RunnerOptions& 
   CaseReport report;
   report.test = &c;
   const auto start = std::chrono::steady_clock::now();
-  for (const Case& variant : expand_table(c))
-    Runner(variant, library, options, report).run();
+  for (const Case& swept : expand_sweeps(c))
+    for (const Case& variant : expand_table(swept))
+      Runner(variant, library, options, report).run();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -2,7 +2,7 @@
 // same.
 #pragma once
 
-#include "slvm/tools/sltest/expect.h"
+#include "slvm/tools/sltest/golden.h"
 #include "slvm/tools/sltest/watch.h"
 
 #include <string>
@@ -14,6 +14,7 @@ struct RunnerOptions {
   bool quick = false; ///< one configuration only
   RunConfig config;   ///< the one that expectations are checked in
   Watch* watch = nullptr;
+  GoldenOptions goldens;
 };
 
 /// Failures without a place (an empty file name) name one in their text.
@@ -22,6 +23,7 @@ struct CaseReport {
   std::vector<CheckFailure> failures;
   size_t runs = 0;
   double seconds = 0;
+  std::vector<std::string> updated; ///< pictures that were written
 
   bool passed() const { return failures.empty(); }
 };

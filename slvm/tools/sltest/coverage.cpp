@@ -8,7 +8,8 @@
 namespace slvm::sltest {
 
 size_t FileCoverage::lines_run() const {
-  return static_cast<size_t>(std::count_if(lines.begin(), lines.end(), [](const auto& l) { return l.second > 0; }));
+  return static_cast<size_t>(
+      std::count_if(lines.begin(), lines.end(), [](const auto& l) { return l.second > 0; }));
 }
 
 size_t FileCoverage::ways_taken() const {
@@ -45,9 +46,10 @@ std::vector<FileCoverage> Coverage::files() const {
   }
   std::vector<FileCoverage> list;
   for (auto& [name, file] : files) {
-    std::sort(file.branches.begin(), file.branches.end(), [](const BranchCoverage& a, const BranchCoverage& b) {
-      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-    });
+    std::sort(file.branches.begin(), file.branches.end(),
+              [](const BranchCoverage& a, const BranchCoverage& b) {
+                return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+              });
     list.push_back(std::move(file));
   }
   return list;

@@ -27,7 +27,11 @@ tr.partly td.c {{ background: #fdf3d0 }}
 std::string escaped(std::string_view text) {
   std::string out;
   for (char c : text)
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+    out += c == '&'   ? "&amp;"
+           : c == '<' ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
   return out;
 }
 
@@ -50,8 +54,9 @@ std::string branch_text(const BranchCoverage& b) {
 
 std::string page(const FileCoverage& f) {
   std::string text = fmt::format(fmt::runtime(kHead), escaped(f.file), escaped(f.file));
-  text += fmt::format("<p>{}</p>\n<table>\n<tr><th>line</th><th>points</th><th>source</th><th>branches</th></tr>\n",
-                      summary(f));
+  text += fmt::format(
+      "<p>{}</p>\n<table>\n<tr><th>line</th><th>points</th><th>source</th><th>branches</th></tr>\n",
+      summary(f));
   uint32_t line = 1;
   for (size_t at = 0; at < f.text.size(); ++line) {
     const size_t end = std::min(f.text.find('\n', at), f.text.size());
@@ -64,14 +69,17 @@ std::string page(const FileCoverage& f) {
     }
     auto count = f.lines.find(line);
     const bool counted = count != f.lines.end();
-    const char* colour = !counted         ? (branches.empty() ? "" : partly ? "partly" : "run")
+    const char* colour = !counted         ? (branches.empty() ? ""
+                                             : partly         ? "partly"
+                                                              : "run")
                          : !count->second ? "missed"
                          : partly         ? "partly"
                                           : "run";
-    text += fmt::format("<tr class=\"{}\"><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"c\">{}</td>"
-                        "<td>{}</td></tr>\n",
-                        colour, line, counted ? fmt::format("{}", count->second) : "",
-                        escaped(f.text.substr(at, end - at)), branches);
+    text +=
+        fmt::format("<tr class=\"{}\"><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"c\">{}</td>"
+                    "<td>{}</td></tr>\n",
+                    colour, line, counted ? fmt::format("{}", count->second) : "",
+                    escaped(f.text.substr(at, end - at)), branches);
     at = end + 1;
   }
   return text + "</table>\n</body></html>\n";
@@ -92,8 +100,8 @@ Result<bool> write_coverage_pages(const std::string& folder, const std::vector<F
   for (const FileCoverage& f : files) {
     auto written = write(page_name(f.file), page(f));
     if (!written) return written;
-    index += fmt::format("<tr><td><a href=\"{0}\">{1}</a></td><td>{2}</td></tr>\n", escaped(page_name(f.file)),
-                         escaped(f.file), summary(f));
+    index += fmt::format("<tr><td><a href=\"{0}\">{1}</a></td><td>{2}</td></tr>\n",
+                         escaped(page_name(f.file)), escaped(f.file), summary(f));
   }
   return write("index.html", index + "</table>\n</body></html>\n");
 }

@@ -1,6 +1,7 @@
 #include "slvm/tools/sltest/expect.h"
 
 #include "slvm/tools/sltest/deviation.h"
+#include "slvm/tools/sltest/expression.h"
 #include "slvm/tools/sltest/predicate.h"
 
 #include <fmt/format.h>
@@ -30,10 +31,22 @@ std::vector<float> summary(const Variable& v, Check check) {
   return result;
 }
 
+/// For predicates and code: parameters that the case gives are variables, too.
+Prepared with_params(const Case& c, const Prepared& prepared) {
+  Prepared named = prepared;
+  for (const Setting& s : c.setup.shader.params) {
+    const Declaration d = inferred_type(s.value, s.what);
+    auto value = to_value(s.value, *d.type, d.elements);
+    if (value && d.name != kResultName && !named.grid.find(d.name))
+      named.grid.set(uniform_variable(d.name, *value));
+  }
+  return named;
+}
+
 class Checker {
 public:
   Checker(const Case& c, const Prepared& prepared, const RunResult& result, ShaderLibrary& library)
-      : case_(c), prepared_(prepared), result_(result), library_(library) {}
+      : case_(c), prepared_(prepared), result_(result), library_(library), named_(with_params(c, prepared)) {}
 
   std::vector<CheckFailure> run() {
     for (const Expectation& e : case_.expectations) {
@@ -93,7 +106,7 @@ private:
     if (e.check == Check::kCode) {
       CodeOptions options = code_options(e.value, case_.setup.path);
       options.types = {v.type};
-      auto expected = evaluate_code(library_, e.value.strings.at(0), grid, prepared_.scene, options);
+      auto expected = evaluate_code(library_, e.value.strings.at(0), named_.grid, prepared_.scene, options);
       if (!expected) return expected.error();
       for (size_t i = 0; i < grid.points(); ++i)
         deviation.add(i, expected->at(i), v.at(i));
@@ -118,7 +131,7 @@ private:
   }
 
   void check_predicate(const Expectation& e) {
-    auto holds = evaluate_predicate(library_, e.value, prepared_, result_, case_.setup.path);
+    auto holds = evaluate_predicate(library_, e.value, named_, result_, case_.setup.path);
     if (!holds) return fail(e.value.where, fmt::format("predicate: {}", holds.error()));
     size_t failed = 0, first = 0;
     for (size_t i = prepared_.grid.points(); i-- > 0;)
@@ -137,17 +150,26 @@ private:
   }
 
   void check_messages() {
-    const std::vector<RuntimeMessage>& got = result_.messages;
-    const std::vector<std::string> expected = case_.messages.value_or(std::vector<std::string>());
+    std::vector<std::string> texts, described;
+    for (const RuntimeMessage& m : result_.messages) {
+      texts.push_back(m.text);
+      described.push_back(
+          fmt::format("{}:{}: {} ({} of {} points)", m.file, m.line, m.text, m.points, m.total));
+    }
+    check_parts("run-time message", texts, described, case_.messages.value_or(std::vector<std::string>()));
+    if (case_.warnings) check_parts("warning", result_.warnings, result_.warnings, *case_.warnings);
+  }
+
+  /// Each text has the part that is expected of it, and there are no more and no fewer.
+  void check_parts(const char* what, const std::vector<std::string>& got,
+                   const std::vector<std::string>& described, const std::vector<std::string>& expected) {
     for (size_t i = 0; i < std::max(got.size(), expected.size()); ++i) {
       if (i >= got.size())
-        fail(case_.where, fmt::format("no run-time message \"{}\"", expected[i]));
+        fail(case_.where, fmt::format("no {} \"{}\"", what, expected[i]));
       else if (i >= expected.size())
-        fail(case_.where, fmt::format("run-time message: {}:{}: {} ({} of {} points)", got[i].file,
-                                      got[i].line, got[i].text, got[i].points, got[i].total));
-      else if (got[i].text.find(expected[i]) == std::string::npos)
-        fail(case_.where,
-             fmt::format("run-time message: expected \"{}\", got \"{}\"", expected[i], got[i].text));
+        fail(case_.where, fmt::format("{}: {}", what, described[i]));
+      else if (got[i].find(expected[i]) == std::string::npos)
+        fail(case_.where, fmt::format("{}: expected \"{}\", got \"{}\"", what, expected[i], got[i]));
     }
   }
 
@@ -162,6 +184,7 @@ private:
   const Prepared& prepared_;
   const RunResult& result_;
   ShaderLibrary& library_;
+  const Prepared named_;
   std::vector<CheckFailure> failures_;
 };
 

@@ -83,8 +83,9 @@ void NanHunter::after(const ExecutionStep& step) {
                                  ? instrumenter_.variable_at(place.file, place.line, place.column)
                                  : std::string(o.variable);
       if (!variable.empty() && !variable.starts_with("the ")) variable = fmt::format("'{}'", variable);
-      Finding& f = finding(step, fmt::format("{}{}{} gives a number that is not finite", operation_name(call.name),
-                                             variable.empty() ? "" : " for ", variable));
+      Finding& f =
+          finding(step, fmt::format("{}{}{} gives a number that is not finite", operation_name(call.name),
+                                    variable.empty() ? "" : " for ", variable));
       if (f.points.empty()) {
         std::string given;
         for (const StepOperand& in : operands)

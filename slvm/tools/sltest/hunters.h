@@ -1,5 +1,5 @@
-// Observers that look for mistakes: where numbers that are not finite arise, and where variables are read that were
-// never set.
+// Observers that look for mistakes: where numbers that are not finite arise, and where variables are read
+// that were never set.
 #pragma once
 
 #include "slvm/tools/sltest/mark_observer.h"
@@ -12,8 +12,8 @@
 
 namespace slvm::sltest {
 
-/// Calls that are given finite numbers and store one that is not; and parameters and variables that are not finite
-/// where they are read. What follows from such a number is not reported.
+/// Calls that are given finite numbers and store one that is not; and parameters and variables that are not
+/// finite where they are read. What follows from such a number is not reported.
 class NanHunter final : public MarkObserver {
 public:
   explicit NanHunter(const Instrumenter& instrumenter) : instrumenter_(instrumenter) {}

@@ -15,8 +15,20 @@ namespace slvm::sltest {
 
 Result<bool> write_variable(const std::string& path, const Variable& variable, int nu, int nv);
 
-/// By the module sltest_images.so, where there is one. `pixels`: row by row, interleaved.
+/// How .exr files store numbers: as floats, or as halves, which take half the space.
+enum class PixelSize : uint8_t { kFull, kSmall };
+
+/// By the module sltest_images.so, where there is one. `pixels`: row by row, interleaved. The file is written
+/// to a temporary name and renamed.
 Result<bool> write_image(const std::string& path, const std::vector<float>& pixels, int nu, int nv,
-                         int channels);
+                         int channels, PixelSize size = PixelSize::kFull);
+
+struct Image {
+  int nu = 0, nv = 0, channels = 0;
+  std::vector<float> pixels;
+  std::vector<float> rounded; ///< what becomes of other pixels in a file like this
+};
+/// Reads an image by the module; `others` are rounded as the file's pixels are.
+Result<Image> read_image(const std::string& path, const std::vector<float>& others);
 
 } // namespace slvm::sltest

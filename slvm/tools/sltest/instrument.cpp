@@ -118,15 +118,15 @@ private:
       for (const Variable* known : scope_)
         names.push_back(known->name);
       if (!found_)
-        out_.probe_problem_ = fmt::format("no variable '{}' at {}:{}; there are {}", out_.options_.probe->name,
-                                          file_of(where), where.line, fmt::join(names, ", "));
+        out_.probe_problem_ =
+            fmt::format("no variable '{}' at {}:{}; there are {}", out_.options_.probe->name, file_of(where),
+                        where.line, fmt::join(names, ", "));
       return nullptr;
     }
     found_ = true;
     out_.probe_problem_.clear();
     std::vector<ExprPtr> values;
-    if (v->array_length == kNotArray)
-      values.push_back(make_.read(*v, where));
+    if (v->array_length == kNotArray) values.push_back(make_.read(*v, where));
     for (int i = 0; i < v->array_length; ++i)
       if (element < 0 || i == element) values.push_back(make_.element(*v, i, where));
     return make_.statement(mark(MarkKind::kProbe, where, out_.options_.probe->name, std::move(values)));

@@ -1,10 +1,11 @@
-// Marks in a checked program: calls that compute nothing, by which an observer of the run learns where in the source
-// it is and what variables hold there. A mark is a call of printf whose pattern begins with a byte that no source
-// has; MarkObserver (mark_observer.h) takes such calls and leaves them out.
+// Marks in a checked program: calls that compute nothing, by which an observer of the run learns where in the
+// source it is and what variables hold there. A mark is a call of printf whose pattern begins with a byte
+// that no source has; MarkObserver (mark_observer.h) takes such calls and leaves them out.
 //
 //   statements   a mark before each statement
-//   conditions   the condition of an if, loop or ?: becomes f(condition), where f hands it to a mark and returns it
-//   reads        each local without initialiser has a second variable that tells whether it was set; reads hand
+//   conditions   the condition of an if, loop or ?: becomes f(condition), where f hands it to a mark and
+//   returns it reads        each local without initialiser has a second variable that tells whether it was
+//   set; reads hand
 //                that to a mark
 //   probe        a mark with the value of one variable behind one line
 #pragma once

@@ -55,8 +55,12 @@ ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& sou
                            [&](const slc::CompiledShader& s) { return s.program.name == stem; });
   Program& program = (same == compiled.end() ? compiled.front() : *same).program;
   std::vector<std::byte> slo = write_slo(program);
-  shader =
-      std::make_shared<const CompiledShader>(CompiledShader{std::move(slo), std::move(program), messages});
+  std::vector<std::string> warnings;
+  for (const Diagnostic& d : diags.sorted())
+    warnings.push_back(
+        fmt::format("{}:{}: {} [-W{}]", sources.name(d.where.file), d.where.line, d.text, d.warning_name));
+  shader = std::make_shared<const CompiledShader>(
+      CompiledShader{std::move(slo), std::move(program), messages, std::move(warnings)});
   return shader;
 }
 
@@ -71,7 +75,8 @@ ShaderPtr ShaderLibrary::load(const std::string& file, ShaderError& error) {
     error = {false, fmt::format("{}: {}", file, program.error())};
     return nullptr;
   }
-  return std::make_shared<const CompiledShader>(CompiledShader{std::move(*bytes), std::move(*program), ""});
+  return std::make_shared<const CompiledShader>(
+      CompiledShader{std::move(*bytes), std::move(*program), "", {}});
 }
 
 ShaderPtr ShaderLibrary::find(const std::string& name, CompileMode mode, std::span<const std::string> path,

@@ -19,7 +19,8 @@ namespace slvm::sltest {
 struct CompiledShader {
   std::vector<std::byte> slo;
   Program program;
-  std::string warnings; ///< what the compiler said, as text for a terminal
+  std::string warnings;                   ///< what the compiler said, as text for a terminal
+  std::vector<std::string> warning_texts; ///< each by itself: "file.sl:3: text [-Wname]"
 };
 using ShaderPtr = std::shared_ptr<const CompiledShader>;
 

@@ -49,7 +49,7 @@ bool run_file(const std::string& name, const std::string& text, const Options& o
     if (options.list)
       print(stdout, fmt::format("{}: {}\n", to_string(c.where), c.name));
     else
-      report.cases.push_back(run_case(c, library, {options.quick, options.config, &watch}));
+      report.cases.push_back(run_case(c, library, {options.quick, options.config, &watch, options.goldens}));
   }
   print(stdout, report_text(report, options.verbose));
   return true;

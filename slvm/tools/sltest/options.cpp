@@ -240,6 +240,23 @@ void add_common_options(CLI::App& app, Options& o, Texts& texts) {
   app.add_flag("--nospecialise", o.no_specialise, "Do not optimise the shader for its parameter values");
 }
 
+void add_test_options(CLI::App& app, Options& o) {
+  constexpr const char* kTests = "Running test files";
+  auto group = [](CLI::Option* option) { option->group(kTests); };
+  group(app.add_option("--filter", o.filter, "Run only cases whose name matches this regular expression"));
+  group(app.add_flag("--list", o.list, "List the cases instead of running them"));
+  group(app.add_flag("--quick", o.quick,
+                     "Run each case once, not with several strip widths, -O levels and targets"));
+  group(app.add_flag("--update-goldens", o.goldens.update,
+                     "Write the pictures of expect.image that are missing or differ, instead of failing"));
+  group(
+      app.add_option(
+             "--failures", o.goldens.failures,
+             "Where to write results that differ from their pictures, and the differences (sltest-failures)")
+          ->type_name("FOLDER"));
+  group(app.add_option("--junit", o.junit, "Write a JUnit report")->type_name("FILE"));
+}
+
 } // namespace
 
 ParseOutcome parse_options(int argc, const char* const* argv, Options& options) {
@@ -250,14 +267,7 @@ ParseOutcome parse_options(int argc, const char* const* argv, Options& options) 
   add_run_options(app, options, texts);
   add_watch_options(app, options);
   add_common_options(app, options, texts);
-  constexpr const char* kTests = "Running test files";
-  app.add_option("--filter", options.filter, "Run only cases whose name matches this regular expression")
-      ->group(kTests);
-  app.add_flag("--list", options.list, "List the cases instead of running them")->group(kTests);
-  app.add_flag("--quick", options.quick,
-               "Run each case once, not with several strip widths, -O levels and targets")
-      ->group(kTests);
-  app.add_option("--junit", options.junit, "Write a JUnit report")->type_name("FILE")->group(kTests);
+  add_test_options(app, options);
   app.add_flag("-v,--verbose", options.verbose, "Name passing cases too");
   app.set_version_flag("--version", kVersion);
   app.footer(footer());

@@ -1,6 +1,7 @@
 // The command line: what to test, or the one-off form spelled like OSL's testshade.
 #pragma once
 
+#include "slvm/tools/sltest/golden.h"
 #include "slvm/tools/sltest/run.h"
 #include "slvm/tools/sltest/setup.h"
 #include "slvm/tools/sltest/watch.h"
@@ -20,6 +21,7 @@ struct Options {
   // Test files
   std::string filter, junit;
   bool list = false, verbose = false, quick = false;
+  GoldenOptions goldens;
   // The one-off form
   Setup setup;                                              ///< without the shader
   std::vector<std::pair<std::string, std::string>> outputs; ///< variable, file or "null"

@@ -20,7 +20,8 @@ public:
   /// "3 of 64 points: (1, 0), (2, 0), (5, 1)"; the first few.
   std::string text(size_t nu) const {
     constexpr size_t kShown = 4;
-    std::string out = fmt::format("{} of {} point{}: ", count_, marked_.size(), marked_.size() == 1 ? "" : "s");
+    std::string out =
+        fmt::format("{} of {} point{}: ", count_, marked_.size(), marked_.size() == 1 ? "" : "s");
     size_t shown = 0;
     for (size_t i = 0; i < marked_.size() && shown < kShown; ++i)
       if (marked_[i]) out += fmt::format("{}({}, {})", shown++ ? ", " : "", i % nu, i / nu);

@@ -45,6 +45,8 @@ size_t failed_count(const FileReport& report) {
 std::string report_text(const FileReport& report, bool verbose) {
   std::string text;
   for (const CaseReport& r : report.cases) {
+    for (const std::string& file : r.updated)
+      text += fmt::format("updated {}\n", file);
     if (r.passed() && !verbose) continue;
     text += fmt::format("{} {}: {}", r.passed() ? "pass" : "FAIL", to_string(r.test->where), r.test->name);
     if (verbose) text += fmt::format(" ({} runs, {:.1f} ms)", r.runs, 1000 * r.seconds);

@@ -64,6 +64,7 @@ std::unique_ptr<Instance> Binding::bind(const Setup& setup, const ShaderRef& ref
   ShaderPtr compiled = obtain(setup, ref, formals, library, mode, error);
   if (!compiled) return nullptr;
   warnings_ += compiled->warnings;
+  if (&ref == &setup.shader) main_warnings_ = compiled->warning_texts;
   auto shader = machine_.load(compiled->slo);
   if (!shader) {
     error = {Failure::kBind, shader.error()};
@@ -173,6 +174,7 @@ RunResult Worker::result() const {
   }
   result.printed = services_.printed();
   result.messages = binding_.messages();
+  result.warnings = binding_.main_warnings_;
   return result;
 }
 

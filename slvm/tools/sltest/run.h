@@ -47,6 +47,7 @@ struct RunResult {
   std::vector<Variable> outputs; ///< in the order in which they are printed
   std::string printed;
   std::vector<RuntimeMessage> messages;
+  std::vector<std::string> warnings; ///< of the compiler, about the shader under test
 
   const Variable* find(std::string_view name) const;
 };
@@ -73,6 +74,7 @@ private:
   std::vector<std::unique_ptr<Instance>> companions_, lights_;
   ShaderSet set_;
   std::string warnings_;
+  std::vector<std::string> main_warnings_;
 };
 
 /// Shades the grid of a binding; one for each thread.

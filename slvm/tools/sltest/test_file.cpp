@@ -4,6 +4,7 @@
 
 #include "slvm/format/shadeop_info.h"
 #include "slvm/tools/sltest/setup_reader.h"
+#include "slvm/tools/sltest/sweep.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,13 @@ namespace {
 void read_tolerance(TableReader& table, Tolerance& tolerance) {
   table.read("abs", tolerance.abs);
   table.read("rel", tolerance.rel);
+}
+
+void read_image_tolerance(TableReader& table, ImageTolerance& tolerance) {
+  table.read("failthresh", tolerance.failthresh);
+  table.read("hardfail", tolerance.hardfail);
+  table.read("failpercent", tolerance.failpercent);
+  table.read("failrelative", tolerance.failrelative);
 }
 
 /// "3, 1": a point of the grid.
@@ -38,6 +46,12 @@ public:
       read_tolerance(tolerance, case_.tolerance);
       tolerance.finish();
     }
+    if (const toml::table* t = table.table("image_tolerance")) {
+      TableReader tolerance(*t, source_);
+      read_image_tolerance(tolerance, case_.image_tolerance);
+      tolerance.finish();
+    }
+    if (const toml::table* t = table.table("sweep")) read_sweeps(*t, source_, case_.sweeps);
     table.read("quick", case_.quick);
     table.read("specialised", case_.specialised);
     table.read("unspecialised", case_.unspecialised);
@@ -91,6 +105,7 @@ private:
   /// `expect = VALUE` is short for `expect.result = VALUE`.
   void read_expect(const toml::node& node) {
     case_.expectations.clear();
+    case_.images.clear();
     const toml::table* table = node.as_table();
     if (!table) return add(Check::kAll, "result", node, case_.tolerance);
     for (const auto& [key, value] : in_file_order(*table)) {
@@ -100,12 +115,35 @@ private:
         case_.printed = value->value<std::string>();
       else if (key == "messages")
         case_.messages = texts(*value);
+      else if (key == "warnings")
+        case_.warnings = texts(*value);
+      else if (key == "image")
+        read_images(*value);
       else if (key == "bind_error")
         case_.bind_error = value->value_or<std::string>("");
       else if (key == "compile_error")
         case_.compile_error = value->value_or<std::string>("");
       else
         read_variable(key, *value);
+    }
+  }
+
+  /// `image.NAME = FILE`, or a table with `file` and tolerances.
+  void read_images(const toml::node& node) {
+    const toml::table* images = node.as_table();
+    if (!images) return source_.error(node, "write expect.image.NAME = \"FILE.exr\"");
+    for (const auto& [name, value] : in_file_order(*images)) {
+      ImageExpectation e{name, {}, case_.image_tolerance, source_.where(*value)};
+      if (auto file = value->value_exact<std::string>()) {
+        e.file = *file;
+      } else if (const toml::table* t = value->as_table()) {
+        TableReader table(*t, source_);
+        table.read("file", e.file);
+        read_image_tolerance(table, e.tolerance);
+        table.finish();
+      }
+      if (e.file.empty()) return source_.error(*value, "the name of an image file is missing");
+      case_.images.push_back(std::move(e));
     }
   }
 
@@ -145,8 +183,8 @@ private:
 };
 
 bool check_case(const Case& c, const toml::node& node, const TomlSource& source) {
-  const bool expects = !c.expectations.empty() || c.printed || c.messages || !c.bind_error.empty() ||
-                       !c.compile_error.empty() || c.table;
+  const bool expects = !c.expectations.empty() || !c.images.empty() || c.warnings || c.printed ||
+                       c.messages || !c.bind_error.empty() || !c.compile_error.empty() || c.table;
   if (c.setup.shader.form == ShaderForm::kNone)
     source.error(node, "a case needs a shader, source or expr");
   else if (!expects)

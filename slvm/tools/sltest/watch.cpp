@@ -32,7 +32,8 @@ void hunt(const Setup& setup, const Prepared& prepared, ShaderLibrary& library, 
   Instrumenter marks(options);
   Hunter hunter(marks);
   RunError error;
-  if (!run_marked(setup, prepared, library, config, marks, hunter, error)) return findings.push_back(error.text);
+  if (!run_marked(setup, prepared, library, config, marks, hunter, error))
+    return findings.push_back(error.text);
   for (std::string& text : hunter.findings())
     findings.push_back(std::move(text));
 }
@@ -54,7 +55,8 @@ std::string profile_text(const std::vector<ProfileLine>& lines) {
   double total = 0;
   for (const ProfileLine& l : lines)
     total += l.seconds;
-  std::string text = fmt::format("Profile: {:.3f} ms\n        ms      %      points  instr.  line\n", 1e3 * total);
+  std::string text =
+      fmt::format("Profile: {:.3f} ms\n        ms      %      points  instr.  line\n", 1e3 * total);
   for (size_t i = 0; i < lines.size() && i < kShownLines; ++i) {
     const ProfileLine& l = lines[i];
     const std::string place = l.line ? fmt::format("{}:{}", l.file, l.line) : "(no line)";
@@ -71,16 +73,15 @@ std::string profile_text(const std::vector<ProfileLine>& lines) {
 } // namespace
 
 Watch::Watch(const WatchOptions& options)
-    : options_(options), coverage_marks_({.statements = true, .conditions = true}), coverage_(coverage_marks_) {}
+    : options_(options), coverage_marks_({.statements = true, .conditions = true}),
+      coverage_(coverage_marks_) {}
 
 std::vector<std::string> Watch::run(const Setup& setup, const Prepared& prepared, ShaderLibrary& library,
                                     const RunConfig& config, int profiled_runs) {
   std::vector<std::string> findings;
   RunError error;
-  if (options_.nan)
-    hunt<NanHunter>(setup, prepared, library, config, {.statements = true}, findings);
-  if (options_.uninit)
-    hunt<UninitHunter>(setup, prepared, library, config, {.reads = true}, findings);
+  if (options_.nan) hunt<NanHunter>(setup, prepared, library, config, {.statements = true}, findings);
+  if (options_.uninit) hunt<UninitHunter>(setup, prepared, library, config, {.reads = true}, findings);
   if (options_.coverage) {
     RunConfig tested = config;
     tested.instrument_all = false;

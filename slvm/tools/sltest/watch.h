@@ -1,5 +1,6 @@
-// Runs that are watched: what --debugnan, --debuguninit, --coverage, --profile and --probe add to the run of a
-// setup. Each is one more run with an observer; all but the profile run code at -O0, in which every statement is.
+// Runs that are watched: what --debugnan, --debuguninit, --coverage, --profile and --probe add to the run of
+// a setup. Each is one more run with an observer; all but the profile run code at -O0, in which every
+// statement is.
 #pragma once
 
 #include "slvm/exec/profiler.h"
@@ -25,8 +26,8 @@ class Watch {
 public:
   explicit Watch(const WatchOptions& options);
 
-  /// Runs the setup once more for each thing that is watched. Returns what is wrong with the shaders: places where
-  /// numbers are not finite, or were never set. `profiled_runs`: how often it runs for the profile.
+  /// Runs the setup once more for each thing that is watched. Returns what is wrong with the shaders: places
+  /// where numbers are not finite, or were never set. `profiled_runs`: how often it runs for the profile.
   std::vector<std::string> run(const Setup& setup, const Prepared& prepared, ShaderLibrary& library,
                                const RunConfig& config, int profiled_runs = 1);
   /// Runs the setup for --probe. Null: `error` says why there is nothing to show.

@@ -90,7 +90,8 @@ TEST_F(ObserverTest, MayLeaveOutCalls) {
 }
 
 TEST_F(ObserverTest, ProfilerCountsPointsByLine) {
-  auto surface = at_level_0("surface s() {\n  float x = 0;\n  if (u > 0.4)\n    x = sqrt(v);\n  Ci = x;\n}\n");
+  auto surface =
+      at_level_0("surface s() {\n  float x = 0;\n  if (u > 0.4)\n    x = sqrt(v);\n  Ci = x;\n}\n");
   Profiler profiler;
   context.observe(&profiler);
   context.shade({.surface = surface.get()}, grid);
