@@ -1,6 +1,10 @@
-# What test files may hold beside values: sweeps, warnings, pictures.
+# What test files may hold beside values (sweeps, warnings, pictures), and reports of their runs.
 sl_tool_test(sweeps 1 "${sltest} ${here}/sweeps.toml -v" "pass ${here}/sweeps.toml:2: cross product (24 runs|pass ${here}/sweeps.toml:14: |expected 1, got 2 at (0, 0)|[k = 2, uniform arguments]|[k = 2, varying arguments in a loop]|warning: expected \"nothing at all\", got|variable 'unused' is not used [-Wunused]\"|warning: ${here}/sweeps.toml:30: this assigns|pass ${here}/sweeps.toml:34: no warnings|2 of 5 cases failed")
 sl_tool_test(bad_sweeps 1 "${sltest} ${here}/bad_sweeps.toml" ":4:11: error: a sweep is a list of values, or {from, to, steps} with 2 to 1000 steps|:9:11: error: a sweep is a list of values, or {from, to, steps}\\n|'options' must be a table|20000 combinations, more than 10000|write expect.image.NAME = \"FILE.exr\"|the name of an image file is missing")
 if(ANEMONE_RENDER)
   sl_tool_test(goldens 0 "${CMAKE_COMMAND} -DSLTEST=${sltest} -DINPUT=${here}/golden.toml.in -DFOLDER=${CMAKE_CURRENT_BINARY_DIR}/goldens -P ${here}/goldens.cmake" "pictures are right")
 endif()
+sl_tool_test(json 0 "${CMAKE_COMMAND} -DSLTEST=${sltest} -DHERE=${here} -DFILE=${CMAKE_CURRENT_BINARY_DIR}/report.json -P ${here}/json_report.cmake" "the report is right")
+sl_tool_test(json_nowhere 3 "${sltest} ${here}/watched.toml --quick --json ${CMAKE_CURRENT_BINARY_DIR}/none/report.json" "2 cases in 1 file passed|none/report.json")
+sl_tool_test(bench_of_a_shader 2 "${sltest} --expr u --bench" "--bench is for test files (.toml)")
+sl_tool_test(res_of_tests 2 "${sltest} ${here}/watched.toml -g 3 3" "--res is for one shader, not for test files")

@@ -16,6 +16,6 @@ sl_tool_test(probe_to_file 0 "${watched} --probe watched.sl:31:x -o x ${CMAKE_CU
 sl_tool_test(probe_no_variable 2 "${watched} --probe watched.sl:31:xx" "--probe: no variable 'xx' at |watched.sl:31; there are k, big, result, x, tint, list")
 sl_tool_test(probe_no_line 2 "${watched} --probe watched.sl:2:x" "--probe: no statement of the shader is at or before watched.sl:2")
 sl_tool_test(probe_form 2 "${watched} --probe x" "--probe x: write FILE.sl:LINE:NAME")
-sl_tool_test(probe_of_tests 2 "${sltest} ${here}/watched.toml --probe a.sl:1:x" "--probe is for one shader")
+sl_tool_test(probe_of_tests 2 "${sltest} ${here}/watched.toml --probe a.sl:1:x" "--probe is for one shader, not for test files")
 sl_tool_test(probe_each_alone 2 "${watched} --probe-each" "--probe-each goes with --probe")
 sl_tool_test(watch_tests 1 "${sltest} ${here}/watched.toml --quick --debugnan --debuguninit" "FAIL |'/' for the result of ratio|'x' is read but was never set|1 of 2 cases failed")

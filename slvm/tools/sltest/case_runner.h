@@ -2,6 +2,7 @@
 // same.
 #pragma once
 
+#include "slvm/tools/sltest/bench.h"
 #include "slvm/tools/sltest/golden.h"
 #include "slvm/tools/sltest/watch.h"
 
@@ -24,6 +25,7 @@ struct CaseReport {
   size_t runs = 0;
   double seconds = 0;
   std::vector<std::string> updated; ///< pictures that were written
+  std::vector<BenchResult> bench;   ///< where times were asked for
 
   bool passed() const { return failures.empty(); }
 };

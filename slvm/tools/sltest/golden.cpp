@@ -59,7 +59,8 @@ std::string file_stem(const std::string& text) {
 
 class GoldenCheck {
 public:
-  GoldenCheck(const Case& c, const Prepared& prepared, const GoldenOptions& options, std::vector<std::string>& updated)
+  GoldenCheck(const Case& c, const Prepared& prepared, const GoldenOptions& options,
+              std::vector<std::string>& updated)
       : case_(c), grid_(prepared.grid), options_(options), updated_(updated) {}
 
   /// What is wrong with one picture, or "".
@@ -77,14 +78,16 @@ public:
     const int channels = static_cast<int>(v->planes());
     std::error_code error;
     if (!fs::exists(file, error))
-      return options_.update ? update(file, pixels, channels)
-                             : fmt::format("{}: there is no {}; --update-goldens writes it", e.variable, file);
+      return options_.update
+                 ? update(file, pixels, channels)
+                 : fmt::format("{}: there is no {}; --update-goldens writes it", e.variable, file);
     auto golden = read_image(file, pixels);
     if (!golden) return golden.error();
     if (golden->nu != grid_.nu || golden->nv != grid_.nv || golden->channels != channels) {
       if (options_.update) return update(file, pixels, channels);
-      return fmt::format("{}: {} has {} x {} pixels of {} channels, the grid {} x {} points of {}", e.variable, file,
-                         golden->nu, golden->nv, golden->channels, grid_.nu, grid_.nv, channels);
+      return fmt::format("{}: {} has {} x {} pixels of {} channels, the grid {} x {} points of {}",
+                         e.variable, file, golden->nu, golden->nv, golden->channels, grid_.nu, grid_.nv,
+                         channels);
     }
     const Comparison c = compare(*golden, golden->rounded, e.tolerance);
     const double percent = 100.0 * static_cast<double>(c.failed) / static_cast<double>(grid_.points());
@@ -95,11 +98,11 @@ public:
       return exact_text(std::vector<float>(list.begin() + static_cast<std::ptrdiff_t>(first),
                                            list.begin() + static_cast<std::ptrdiff_t>(first) + channels));
     };
-    std::string text = fmt::format("{}: differs from {}: {} of {} pixels ({:.3g}%) are off by more than {:g}; worst {:.3g} "
-                                   "(component {}) at {}: expected {}, got {}",
-                                   e.variable, file, c.failed, grid_.points(), percent, e.tolerance.failthresh,
-                                   c.worst, c.worst_channel, point_text(grid_, c.worst_pixel),
-                                   pixel_at(golden->pixels), pixel_at(golden->rounded));
+    std::string text = fmt::format(
+        "{}: differs from {}: {} of {} pixels ({:.3g}%) are off by more than {:g}; worst {:.3g} "
+        "(component {}) at {}: expected {}, got {}",
+        e.variable, file, c.failed, grid_.points(), percent, e.tolerance.failthresh, c.worst, c.worst_channel,
+        point_text(grid_, c.worst_pixel), pixel_at(golden->pixels), pixel_at(golden->rounded));
     return text + store(e, pixels, c.difference, channels);
   }
 
@@ -112,14 +115,16 @@ private:
   }
 
   /// Writes the result and the difference; says where they are.
-  std::string store(const ImageExpectation& e, const std::vector<float>& pixels, const std::vector<float>& difference,
-                    int channels) {
+  std::string store(const ImageExpectation& e, const std::vector<float>& pixels,
+                    const std::vector<float>& difference, int channels) {
     std::error_code error;
     fs::create_directories(options_.failures, error);
-    const fs::path stem = fs::path(options_.failures) / file_stem(fs::path(case_.where.file).stem().string() + "-" +
-                                                                  case_.name + "-" + e.variable);
-    const std::string result_file = stem.string() + ".exr", difference_file = stem.string() + "-difference.exr";
-    for (const auto& [file, values] : {std::pair(result_file, &pixels), std::pair(difference_file, &difference)})
+    const fs::path stem = fs::path(options_.failures) / file_stem(fs::path(case_.where.file).stem().string() +
+                                                                  "-" + case_.name + "-" + e.variable);
+    const std::string result_file = stem.string() + ".exr",
+                      difference_file = stem.string() + "-difference.exr";
+    for (const auto& [file, values] :
+         {std::pair(result_file, &pixels), std::pair(difference_file, &difference)})
       if (auto written = write_image(file, *values, grid_.nu, grid_.nv, channels, PixelSize::kFull); !written)
         return "\n    " + written.error();
     return fmt::format("\n    see {} and {}", result_file, difference_file);
@@ -138,7 +143,8 @@ std::vector<CheckFailure> check_goldens(const Case& c, const Prepared& prepared,
   std::vector<CheckFailure> failures;
   GoldenCheck check(c, prepared, options, updated);
   for (const ImageExpectation& e : c.images)
-    if (std::string text = check.check(e, result); !text.empty()) failures.push_back({e.where, std::move(text)});
+    if (std::string text = check.check(e, result); !text.empty())
+      failures.push_back({e.where, std::move(text)});
   return failures;
 }
 

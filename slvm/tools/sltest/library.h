@@ -57,6 +57,9 @@ public:
   ShaderPtr find(const std::string& name, CompileMode mode, std::span<const std::string> path,
                  ShaderError& error);
 
+  /// Everything is compiled or read anew from now on.
+  void forget() { shaders_.clear(); }
+
 private:
   ShaderPtr load(const std::string& file, ShaderError& error);
 

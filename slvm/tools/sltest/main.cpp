@@ -2,6 +2,7 @@
 // prints and decides the exit status. Read options.cpp for the command line, then one_off.cpp or
 // case_runner.cpp.
 #include "slvm/format/slo.h"
+#include "slvm/tools/sltest/json_report.h"
 #include "slvm/tools/sltest/one_off.h"
 #include "slvm/tools/sltest/options.h"
 #include "slvm/tools/sltest/report.h"
@@ -41,18 +42,52 @@ bool run_file(const std::string& name, const std::string& text, const Options& o
   FileReport& report = reports.emplace_back();
   report.file = read_test_file(name, text, options.path, sources, diags);
   print(stderr, format_diagnostics(diags, sources));
-  if (diags.has_errors()) return false;
+  if (diags.has_errors()) {
+    report.unreadable = true;
+    return false;
+  }
   library.add_source(name, text);
   const std::regex filter(options.filter);
   for (const Case& c : report.file.cases) {
     if (!options.filter.empty() && !std::regex_search(c.name, filter)) continue;
-    if (options.list)
+    if (options.list) {
       print(stdout, fmt::format("{}: {}\n", to_string(c.where), c.name));
-    else
-      report.cases.push_back(run_case(c, library, {options.quick, options.config, &watch, options.goldens}));
+      continue;
+    }
+    const bool once = options.quick || options.bench;
+    report.cases.push_back(run_case(c, library, {once, options.config, &watch, options.goldens}));
+    if (options.bench) report.cases.back().bench = bench_case(c, library, options.config);
   }
   print(stdout, report_text(report, options.verbose));
   return true;
+}
+
+std::string bench_text(const std::deque<FileReport>& reports, const RunConfig& config) {
+  std::vector<BenchResult> all;
+  for (const FileReport& file : reports)
+    for (const CaseReport& r : file.cases)
+      all.insert(all.end(), r.bench.begin(), r.bench.end());
+  return bench_text(all, config);
+}
+
+/// Writes what was asked for beside the text on the terminal.
+int write_reports(const Options& options, const Watch& watch, const std::deque<FileReport>& reports) {
+  int status = kOk;
+  auto check = [&](const Result<bool>& written, ExitStatus failure) {
+    if (written) return;
+    print(stderr, fmt::format("sltest: {}\n", written.error()));
+    status = std::max<int>(status, failure);
+  };
+  auto write = [&](const std::string& file, const std::string& text) {
+    check(write_file(file, std::as_bytes(std::span(text.data(), text.size()))), kMissing);
+  };
+  check(watch.write_pages(), kFailed);
+  if (!options.junit.empty()) write(options.junit, junit_text(reports));
+  if (!options.json.empty()) {
+    const std::vector<FileCoverage> coverage = watch.coverage();
+    write(options.json, json_text(reports, options.watch.coverage ? &coverage : nullptr));
+  }
+  return status;
 }
 
 int run_tests(const Options& options, ShaderLibrary& library) {
@@ -63,6 +98,7 @@ int run_tests(const Options& options, ShaderLibrary& library) {
     auto bytes = read_file(name);
     if (!bytes) {
       print(stderr, fmt::format("sltest: {}\n", bytes.error()));
+      reports.push_back({{name, {}}, true, {}});
       status = kMissing;
       continue;
     }
@@ -70,21 +106,12 @@ int run_tests(const Options& options, ShaderLibrary& library) {
     if (!run_file(name, text, options, library, watch, reports)) status = std::max<int>(status, kFailed);
   }
   if (options.list) return status;
+  print(stdout, watch.report());
+  if (options.bench) print(stdout, bench_text(reports, options.config));
   const auto empty = [](const FileReport& r) { return r.cases.empty(); };
   if (status == kOk || !std::all_of(reports.begin(), reports.end(), empty))
-    print(stdout, watch.report() + summary_text(reports));
-  if (auto written = watch.write_pages(); !written) {
-    print(stderr, fmt::format("sltest: {}\n", written.error()));
-    status = std::max<int>(status, kFailed);
-  }
-  if (!options.junit.empty()) {
-    const std::string text = junit_text(reports);
-    auto written = write_file(options.junit, std::as_bytes(std::span(text.data(), text.size())));
-    if (!written) {
-      print(stderr, fmt::format("sltest: {}\n", written.error()));
-      status = std::max<int>(status, kMissing);
-    }
-  }
+    print(stdout, summary_text(reports));
+  status = std::max(status, write_reports(options, watch, reports));
   return all_passed(reports) ? status : std::max<int>(status, kFailed);
 }
 

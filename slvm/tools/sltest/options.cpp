@@ -12,6 +12,8 @@ namespace {
 
 constexpr const char* kVersion = "sltest (Anemone) 0.1.0";
 
+constexpr const char* kRunGroup = "Running a shader";
+constexpr const char* kTestGroup = "Running test files";
 constexpr const char* kDescription = "Runs shaders on sample grids. With test files (.toml): checks what "
                                      "they expect. With a shader (.sl, .slo, or a "
                                      "name) or --expr: runs it once and prints or stores what it computes.";
@@ -156,7 +158,6 @@ std::string finish(const Texts& texts, Options& options) {
   for (const std::string& input : options.inputs)
     (input.ends_with(".toml") ? tests : shaders) = true;
   if (tests && shaders) return "test files and shaders cannot be run together";
-  if (tests && options.watch.probe) return "--probe is for one shader, not for test files";
   if (options.each_pass && !options.watch.probe) return "--probe-each goes with --probe";
   if (!tests && !shaders) return "give a test file, a shader, or --expr";
   if (!tests && options.inputs.size() + !options.expression.empty() > 1)
@@ -165,8 +166,7 @@ std::string finish(const Texts& texts, Options& options) {
 }
 
 void add_run_options(CLI::App& app, Options& o, Texts& texts) {
-  constexpr const char* kGroup = "Running a shader";
-  auto group = [](CLI::Option* option) { return option->group(kGroup); };
+  auto group = [](CLI::Option* option) { return option->group(kRunGroup); };
   group(app.add_option("-g,--res", texts.resolution, "Resolution of the grid (1 1)")->expected(2))
       ->type_name("NU NV")
       ->check(CLI::Range(1, 16384).description(""));
@@ -254,7 +254,22 @@ void add_test_options(CLI::App& app, Options& o) {
              "--failures", o.goldens.failures,
              "Where to write results that differ from their pictures, and the differences (sltest-failures)")
           ->type_name("FOLDER"));
+  group(app.add_flag(
+      "--bench", o.bench,
+      "Run each case once and time it: compiling, binding, and each point (median of many runs)"));
+  group(app.add_option("--json", o.json, "Write what was found, coverage and times too, as JSON")
+            ->type_name("FILE"));
   group(app.add_option("--junit", o.junit, "Write a JUnit report")->type_name("FILE"));
+}
+
+/// An option that means nothing for what is run.
+std::string misplaced_option(const CLI::App& app, const Options& options) {
+  const bool tests = !options.inputs.empty() && options.inputs[0].ends_with(".toml");
+  for (const CLI::Option* o : app.get_options())
+    if (o->count() && o->get_group() == (tests ? kRunGroup : kTestGroup))
+      return fmt::format("{} is for {}", o->get_name(),
+                         tests ? "one shader, not for test files" : "test files (.toml)");
+  return "";
 }
 
 } // namespace
@@ -269,6 +284,7 @@ ParseOutcome parse_options(int argc, const char* const* argv, Options& options) 
   add_common_options(app, options, texts);
   add_test_options(app, options);
   app.add_flag("-v,--verbose", options.verbose, "Name passing cases too");
+  app.get_option("--verbose")->group(kTestGroup);
   app.set_version_flag("--version", kVersion);
   app.footer(footer());
 
@@ -288,6 +304,7 @@ ParseOutcome parse_options(int argc, const char* const* argv, Options& options) 
       return outcome;
     }
     error = finish(texts, options);
+    if (error.empty()) error = misplaced_option(app, options);
   }
   if (!error.empty())
     outcome = {true, kUsage, "", fmt::format("sltest: {}\nRun with --help for more information.\n", error)};

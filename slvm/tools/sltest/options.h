@@ -19,8 +19,8 @@ struct Options {
   std::vector<std::string> inputs; ///< test files, or one shader
   std::string expression, prelude;
   // Test files
-  std::string filter, junit;
-  bool list = false, verbose = false, quick = false;
+  std::string filter, junit, json;
+  bool list = false, verbose = false, quick = false, bench = false;
   GoldenOptions goldens;
   // The one-off form
   Setup setup;                                              ///< without the shader

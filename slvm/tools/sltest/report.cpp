@@ -62,19 +62,20 @@ std::string report_text(const FileReport& report, bool verbose) {
 }
 
 std::string summary_text(const std::deque<FileReport>& reports) {
-  size_t cases = 0, failed = 0;
+  size_t cases = 0, failed = 0, files = 0;
   for (const FileReport& r : reports) {
+    files += !r.unreadable;
     cases += r.cases.size();
     failed += failed_count(r);
   }
   if (failed) return fmt::format("{} of {} cases failed\n", failed, cases);
-  return fmt::format("{} case{} in {} file{} passed\n", cases, cases == 1 ? "" : "s", reports.size(),
-                     reports.size() == 1 ? "" : "s");
+  return fmt::format("{} case{} in {} file{} passed\n", cases, cases == 1 ? "" : "s", files,
+                     files == 1 ? "" : "s");
 }
 
 bool all_passed(const std::deque<FileReport>& reports) {
   for (const FileReport& r : reports)
-    if (failed_count(r)) return false;
+    if (failed_count(r) || r.unreadable) return false;
   return true;
 }
 

@@ -24,7 +24,8 @@ bool read_range(const toml::table& t, const toml::node& node, const TomlSource& 
   const bool complete = table.read("from", from) && table.read("to", to) && table.read("steps", steps);
   table.finish();
   if (!complete || steps < 2 || steps > kMostSteps || steps != std::floor(steps)) {
-    source.error(node, fmt::format("a sweep is a list of values, or {{from, to, steps}} with 2 to {} steps", kMostSteps));
+    source.error(node, fmt::format("a sweep is a list of values, or {{from, to, steps}} with 2 to {} steps",
+                                   kMostSteps));
     return false;
   }
   for (double i = 0; i < steps; ++i) {
@@ -68,7 +69,8 @@ void apply(const Sweep& sweep, const RawValue& value, Case& c) {
                                                                          : c.setup.options;
   const std::string& name = sweep.what.name;
   c.name += fmt::format(", {} = {}", name,
-                        value.is_text() ? fmt::format("{}", fmt::join(value.strings, " ")) : numbers_text(value.numbers));
+                        value.is_text() ? fmt::format("{}", fmt::join(value.strings, " "))
+                                        : numbers_text(value.numbers));
   auto known = std::find_if(list.begin(), list.end(), [&](const Setting& s) { return s.what.name == name; });
   if (known == list.end())
     list.push_back({sweep.what, value});

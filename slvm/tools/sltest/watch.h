@@ -34,6 +34,8 @@ public:
   std::unique_ptr<Probe> probe(const Setup& setup, const Prepared& prepared, ShaderLibrary& library,
                                const RunConfig& config, RunError& error);
 
+  const WatchOptions& options() const { return options_; }
+  std::vector<FileCoverage> coverage() const { return coverage_.files(); }
   /// What was gathered, as text.
   std::string report() const;
   /// Writes the pages that were asked for.
