@@ -138,8 +138,8 @@ std::string bind_code(Instance::Bound& bound, const Program& program, const Kern
     ShadeopId id = program.imports[i];
     const ShadeopInfo& info = shadeop(id);
     bound.imports.push_back({kernels[id], grid_op(id)});
-    bound.reads_messages |=
-        info.name == "surface" || info.name == "displacement" || info.name == "atmosphere";
+    bound.reads_messages |= info.name == "surface" || info.name == "displacement" ||
+                            info.name == "atmosphere" || info.name == "incident" || info.name == "opposite";
     if (called[i] && info.kind == ShadeopKind::kPending)
       return fmt::format("{} \"{}\" calls '{}', which this build cannot serve",
                          shader_kind_name(program.kind), program.name, info.name);

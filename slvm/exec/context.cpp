@@ -1,4 +1,5 @@
 // ShadingContext: the order of shaders on a grid.
+#include "slvm/exec/observer.h"
 #include "slvm/exec/run.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace slvm {
 struct ShadingContext::Impl {
   Impl(const Machine& m, RendererServices& s) : state{m, s, cache, LightKernels(m.kernels())} {}
 
-  enum Role { kDisplacement, kSurface, kAtmosphere, kSingle, kRoles };
+  enum Role { kDisplacement, kSurface, kAtmosphere, kInterior, kExterior, kSingle, kRoles };
 
   // The run of an instance in a role; kept from grid to grid with its memory.
   ShaderRun& run_of(Role role, const Instance& instance) {
@@ -31,6 +32,8 @@ struct ShadingContext::Impl {
   const ShaderRun*& known(Role role) {
     return role == kDisplacement ? state.displacement
            : role == kAtmosphere ? state.atmosphere
+           : role == kInterior   ? state.interior
+           : role == kExterior   ? state.exterior
                                  : state.surface;
   }
 
@@ -39,7 +42,18 @@ struct ShadingContext::Impl {
     if (!instance || !asking || !asking->bound().reads_messages) return;
     ShaderRun& run = run_of(role, *instance);
     run.prepare();
+    if (state.observer) state.observer->begin_run(*instance);
+    run.compute_defaults();
+    if (state.observer) state.observer->end_run(*instance);
     known(role) = &run;
+  }
+  /// The volumes on both sides of the surface, for incident() and opposite().
+  void announce_volumes(const Instance* asking) {
+    announce(kInterior, shaders.interior, asking);
+    announce(kExterior, shaders.exterior, asking);
+  }
+  void forget_runs() {
+    state.displacement = state.surface = state.atmosphere = state.interior = state.exterior = nullptr;
   }
 
   const ShaderRun* execute(Role role, const Instance* instance) {
@@ -102,9 +116,10 @@ void ShadingContext::observe(ExecutionObserver* observer) {
 
 void ShadingContext::displace(const ShaderSet& set, Grid& grid) {
   impl_->begin(set, grid);
-  impl_->state.displacement = impl_->state.surface = impl_->state.atmosphere = nullptr;
+  impl_->forget_runs();
   impl_->announce(Impl::kSurface, set.surface, set.displacement);
   impl_->announce(Impl::kAtmosphere, set.atmosphere, set.displacement);
+  impl_->announce_volumes(set.displacement);
   impl_->execute(Impl::kDisplacement, set.displacement);
 }
 
@@ -113,6 +128,8 @@ void ShadingContext::shade_displaced(const ShaderSet& set, Grid& grid) {
   begin_output(grid, Global::kCi, Global::kCs);
   begin_output(grid, Global::kOi, Global::kOs);
   impl_->announce(Impl::kAtmosphere, set.atmosphere, set.surface);
+  impl_->announce_volumes(set.surface);
+  impl_->announce_volumes(set.atmosphere);
   impl_->execute(Impl::kSurface, set.surface);
   impl_->execute(Impl::kAtmosphere, set.atmosphere);
 }
@@ -124,7 +141,7 @@ void ShadingContext::shade(const ShaderSet& set, Grid& grid) {
 
 void ShadingContext::run(const Instance& instance, Grid& grid) {
   impl_->begin({}, grid);
-  impl_->state.displacement = impl_->state.surface = impl_->state.atmosphere = nullptr;
+  impl_->forget_runs();
   impl_->execute(Impl::kSingle, &instance);
   if (instance.shader().kind() == ShaderKind::kLight) light_to_grid(*impl_->runs[Impl::kSingle], grid);
 }

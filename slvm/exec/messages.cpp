@@ -18,6 +18,43 @@ void message(const GridCall& call, const ShaderRun* other) {
   q.give({p->data, p->pitch, p->step, std::max(p->elements, 1u)});
 }
 
+// Points that are seen from inside have the interior on the viewer's side, others the exterior. Each takes
+// the value of its own volume; the result is 1 when one of them finds it. What is uniform follows the first
+// point.
+void volume_message(const GridCall& call, bool on_viewers_side) {
+  Query q(call);
+  ShaderRun& run = call.run;
+  const Planes incident = run.variable(Global::kI), normal = run.variable(Global::kNg);
+  auto seen_from_inside = [&](size_t point) {
+    float cosine = 0;
+    for (size_t c = 0; c < 3; ++c)
+      cosine += incident.get(c, point) * normal.get(c, point);
+    return cosine > 0;
+  };
+  auto volume_at = [&](size_t point) -> const Planes* {
+    const bool interior = seen_from_inside(point) == on_viewers_side;
+    const ShaderRun* volume = interior ? run.state.interior : run.state.exterior;
+    const Planes* p = volume ? volume->parameter(q.name) : nullptr;
+    const bool fits =
+        p && p->type == q.out.type && p->elements == q.elements() && (q.out.planes.step || !p->step);
+    return fits ? p : nullptr;
+  };
+  q.not_found(); // points without keep what they had
+  bool found = false;
+  auto take = [&](size_t point, size_t lanes) {
+    const Planes* p = volume_at(point);
+    if (!p) return;
+    found = true;
+    for (size_t i = 0; i < q.planes(); ++i)
+      std::fill_n(q.out.planes.plane(i) + (lanes > 1 ? 0 : point), lanes, p->get(i, point));
+  };
+  if (!q.out.planes.step)
+    take(0, kMaxLanes);
+  else
+    mask_for_each(run.mask.current(), run.points, [&](size_t point) { take(point, 1); });
+  q.result(found);
+}
+
 using Source = bool (RendererServices::*)(const ShadingState&, std::string_view, Value&);
 
 void query(const GridCall& call, Source source) {
@@ -44,13 +81,11 @@ void displacement_message(const GridCall& call) {
 void atmosphere_message(const GridCall& call) {
   message(call, call.run.state.atmosphere);
 }
-// Volumes inside and outside are entered by rays, which this renderer interface does not have yet: nothing is
-// found, as at a surface without interior or exterior shader.
 void incident_message(const GridCall& call) {
-  message(call, nullptr);
+  volume_message(call, true);
 }
 void opposite_message(const GridCall& call) {
-  message(call, nullptr);
+  volume_message(call, false);
 }
 void lightsource_message(const GridCall& call) {
   const LitGrid* light = call.run.light_loop.current();

@@ -32,11 +32,16 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal, std::spa
     resolved_[word] = operand(frame_, program.code[word]);
 }
 
-void ShaderRun::execute() {
+void ShaderRun::compute_defaults() {
   Frame frame = frame_;
-  if (state.observer) state.observer->begin_run(instance);
   for (auto [section, slot] : bound.defaults)
     if (!override_for(slot)) run_code(frame, program.sections[section]);
+}
+
+void ShaderRun::execute() {
+  if (state.observer) state.observer->begin_run(instance);
+  compute_defaults();
+  Frame frame = frame_;
   run_code(frame, program.sections[0]);
   if (state.observer) state.observer->end_run(instance);
 }

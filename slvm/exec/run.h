@@ -24,6 +24,8 @@ struct GridState {
   const ShaderRun* displacement = nullptr;
   const ShaderRun* surface = nullptr;
   const ShaderRun* atmosphere = nullptr;
+  const ShaderRun* interior = nullptr; ///< these two never run here: their parameters only
+  const ShaderRun* exterior = nullptr;
   ExecutionObserver* observer = nullptr; ///< told of each instruction; null: nobody
 };
 
@@ -54,7 +56,9 @@ public:
   /// `sent`: their parameters that are not the instance's.
   void prepare(const Operand* position = nullptr, const Operand* normal = nullptr,
                std::span<const SentValue> sent = {});
-  /// Computes defaults of parameters, then runs the shader.
+  /// Computes defaults of parameters that are no constants.
+  void compute_defaults();
+  /// Does that, then runs the shader.
   void execute();
 
   GridState& state;

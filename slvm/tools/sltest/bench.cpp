@@ -23,7 +23,8 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-bool measure(const Case& c, ShaderLibrary& library, const RunConfig& config, BenchResult& result, RunError& error) {
+bool measure(const Case& c, ShaderLibrary& library, const RunConfig& config, BenchResult& result,
+             RunError& error) {
   Prepared prepared;
   if (!prepare(c.setup, library, prepared, error)) return false;
   result.points = prepared.grid.points();
@@ -59,9 +60,10 @@ std::vector<BenchResult> bench_case(const Case& c, ShaderLibrary& library, const
   if (!c.bind_error.empty() || !c.compile_error.empty()) return results;
   for (const Case& swept : expand_sweeps(c)) {
     const std::vector<Case> variants = expand_table(swept);
-    const Case& largest = *std::max_element(variants.begin(), variants.end(), [](const Case& a, const Case& b) {
-      return a.setup.grid.nu * a.setup.grid.nv < b.setup.grid.nu * b.setup.grid.nv;
-    });
+    const Case& largest =
+        *std::max_element(variants.begin(), variants.end(), [](const Case& a, const Case& b) {
+          return a.setup.grid.nu * a.setup.grid.nv < b.setup.grid.nu * b.setup.grid.nv;
+        });
     BenchResult& result = results.emplace_back();
     result.name = swept.name;
     result.where = c.where;
@@ -75,12 +77,13 @@ std::vector<BenchResult> bench_case(const Case& c, ShaderLibrary& library, const
 
 std::string bench_text(const std::vector<BenchResult>& results, const RunConfig& config) {
   const KernelTable* target = config.target.empty() ? &kernel_table() : find_kernel_table(config.target);
-  std::string text = fmt::format("Benchmark ({}, strips of {}, -O{})\n  ns/point    points  compile ms   bind ms  case\n",
-                                 target->target, config.strip, config.opt_level);
+  std::string text =
+      fmt::format("Benchmark ({}, strips of {}, -O{})\n  ns/point    points  compile ms   bind ms  case\n",
+                  target->target, config.strip, config.opt_level);
   for (const BenchResult& r : results)
     if (r.error.empty())
-      text += fmt::format("{:10.2f}{:10}{:12.3f}{:10.3f}  {}: {}\n", r.ns_per_point(), r.points, 1e3 * r.compile,
-                          1e3 * r.bind, to_string(r.where), r.name);
+      text += fmt::format("{:10.2f}{:10}{:12.3f}{:10.3f}  {}: {}\n", r.ns_per_point(), r.points,
+                          1e3 * r.compile, 1e3 * r.bind, to_string(r.where), r.name);
     else
       text += fmt::format("  {}: {}: cannot run\n", to_string(r.where), r.name);
   return text;

@@ -13,10 +13,10 @@ struct BenchResult {
   std::string name; ///< of the case, with the values of its sweeps
   Where where;
   size_t points = 0, runs = 0;
-  double compile = 0;      ///< seconds, of the shader under test; for a .slo: reading it
-  double bind = 0;         ///< seconds, of all shaders: verifying and specialising them
+  double compile = 0;          ///< seconds, of the shader under test; for a .slo: reading it
+  double bind = 0;             ///< seconds, of all shaders: verifying and specialising them
   double median = 0, best = 0; ///< seconds a run
-  std::string error;       ///< why there are no times
+  std::string error;           ///< why there are no times
 
   double ns_per_point() const { return 1e9 * median / static_cast<double>(points); }
 };

@@ -64,7 +64,8 @@ Json coverage_json(const FileCoverage& f) {
 } // namespace
 
 std::string json_text(const std::deque<FileReport>& reports, const std::vector<FileCoverage>* coverage) {
-  Json root{{"schema", kSchema}, {"version", kVersion}, {"passed", all_passed(reports)}, {"files", Json::array()}};
+  Json root{
+      {"schema", kSchema}, {"version", kVersion}, {"passed", all_passed(reports)}, {"files", Json::array()}};
   for (const FileReport& report : reports) {
     Json file{{"file", report.file.name}, {"cases", Json::array()}};
     if (report.unreadable) file["unreadable"] = true;

@@ -154,9 +154,15 @@ std::vector<std::string> Worker::output_names() const {
   std::vector<std::string> names;
   for (std::string_view name : kResults[static_cast<size_t>(program.kind)])
     if (!name.empty()) names.emplace_back(name);
-  for (const Slot& slot : program.slots)
-    if (slot.stored && !slot.parameter && std::find(names.begin(), names.end(), slot.name) == names.end())
-      names.push_back(slot.name);
+  auto add_stored = [&](const Instance* shader) {
+    if (!shader) return;
+    for (const Slot& slot : shader->shader().program().slots)
+      if (slot.stored && !slot.parameter && std::find(names.begin(), names.end(), slot.name) == names.end())
+        names.push_back(slot.name);
+  };
+  add_stored(binding_.main_.get());
+  for (const Instance* shader : {binding_.set_.displacement, binding_.set_.surface, binding_.set_.atmosphere})
+    add_stored(shader);
   return names;
 }
 
