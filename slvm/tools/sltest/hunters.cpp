@@ -106,24 +106,25 @@ std::vector<std::string> NanHunter::findings() const {
 }
 
 void UninitHunter::marked(uint32_t number, const ExecutionStep& step, std::span<const StepOperand> values) {
-  if (instrumenter_.marks()[number].kind != MarkKind::kRead) return;
+  const Mark& mark = instrumenter_.marks()[number];
+  if (mark.kind != MarkKind::kRead) return;
+  const std::string key = fmt::format("{}:{}: '{}'", mark.file, mark.line, mark.name);
   nu_ = static_cast<size_t>(step.grid().nu());
   const size_t points = step.grid().points();
   for_each_active(step, [&](size_t point, size_t i) {
-    if (values[0].planes.get(0, i) != 0) return;
-    PointSet& set = reads_[number];
-    if (set.empty()) order_.push_back(number);
+    // Of an element: whether it was set, and whether all of the array was.
+    for (const StepOperand& set : values)
+      if (set.planes.get(0, i) != 0) return;
+    PointSet& set = reads_[key];
+    if (set.empty()) order_.push_back(key);
     set.add(point, points);
   });
 }
 
 std::vector<std::string> UninitHunter::findings() const {
   std::vector<std::string> list;
-  for (uint32_t number : order_) {
-    const Mark& m = instrumenter_.marks()[number];
-    list.push_back(fmt::format("{}:{}: '{}' is read but was never set at {}", m.file, m.line, m.name,
-                               reads_.at(number).text(nu_)));
-  }
+  for (const std::string& key : order_)
+    list.push_back(fmt::format("{} is read but was never set at {}", key, reads_.at(key).text(nu_)));
   return list;
 }
 

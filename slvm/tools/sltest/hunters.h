@@ -48,8 +48,8 @@ protected:
 
 private:
   const Instrumenter& instrumenter_;
-  std::map<uint32_t, PointSet> reads_; ///< by mark
-  std::vector<uint32_t> order_;
+  std::map<std::string, PointSet> reads_; ///< by line and variable
+  std::vector<std::string> order_;
   size_t nu_ = 1;
 };
 

@@ -128,7 +128,8 @@ private:
     std::vector<ExprPtr> values;
     if (v->array_length == kNotArray) values.push_back(make_.read(*v, where));
     for (int i = 0; i < v->array_length; ++i)
-      if (element < 0 || i == element) values.push_back(make_.element(*v, i, where));
+      if (element < 0 || i == element)
+        values.push_back(make_.element(*v, make_.number(static_cast<float>(i), where)));
     return make_.statement(mark(MarkKind::kProbe, where, out_.options_.probe->name, std::move(values)));
   }
 
@@ -244,9 +245,12 @@ private:
       if (v->init) named(v->name, v->init);
       list.push_back(v);
       scope_.push_back(v);
-      if (!out_.options_.reads || v->init || v->array_length != kNotArray || !wanted(v->where)) continue;
+      if (!out_.options_.reads || v->init || !wanted(v->where)) continue;
       Variable* set = make_.variable(VariableKind::kLocal, v->name, Type::kFloat, v->where);
-      set->init = make_.number(0, v->where);
+      if (v->array_length == kNotArray)
+        set->init = make_.number(0, v->where);
+      else
+        set->array_length = v->array_length + 1; // the last element: all of them are set
       set_of_[v] = set;
       list.push_back(set);
     }
@@ -261,9 +265,16 @@ private:
       const SourceRange where = e->range;
       result.push_back(std::move(e));
       for (Variable* set : std::exchange(set_by_call_, {}))
-        result.push_back(make_.assign(*set, make_.number(1, where), where));
+        result.push_back(make_.assign(whole(*set, where), make_.number(1, where)));
     }
     list = std::move(result);
+  }
+
+  /// What tells that all of a variable is set.
+  ExprPtr whole(Variable& set, SourceRange where, const Variable* length_of = nullptr) {
+    if (set.array_length == kNotArray) return make_.read(set, where);
+    const int length = (length_of ? length_of : &set)->array_length;
+    return make_.element(set, make_.number(static_cast<float>(length - 1), where));
   }
 
   // ---- Expressions.
@@ -272,18 +283,34 @@ private:
     SourceRange where = e->range;
     if (!where.valid()) where = statement_range;
     expr(e);
-    if (!out_.options_.conditions || !wanted(where)) return;
-    ExprPtr value = make_.float_of_bool(std::move(e));
-    Variable* x = make_.variable(VariableKind::kFormal, "x", Type::kFloat, where);
-    std::vector<ExprPtr> shown, run;
-    shown.push_back(make_.read(*x, where));
-    run.push_back(mark(MarkKind::kCondition, where, what, std::move(shown)));
-    e = make_.bool_of_float(make_.pass_through(std::move(value), *x, {}, std::move(run)));
+    if (out_.options_.conditions && wanted(where)) mark_condition(e, what, where);
+  }
+
+  void right_side(LogicalExpr& e) {
+    const SourceRange where = e.right->range;
+    expr(e.right);
+    if (out_.options_.right_sides && wanted(where)) mark_condition(e.right, e.is_and ? "&&" : "||", where);
+  }
+
+  void mark_condition(ExprPtr& e, const char* what, SourceRange where) {
+    std::vector<SyntaxMaker::Formal> formals;
+    formals.push_back(make_.formal("x", make_.float_of_bool(std::move(e))));
+    Variable& x = *formals[0].variable;
+    e = make_.bool_of_float(make_.call(
+        std::move(formals), list(mark(MarkKind::kCondition, where, what, list(make_.read(x, where)))),
+        make_.read(x, where)));
+  }
+
+  template <class... Items> static std::vector<ExprPtr> list(Items... items) {
+    std::vector<ExprPtr> out;
+    (out.push_back(std::move(items)), ...);
+    return out;
   }
 
   Variable* set_of(const Expr& e) const {
     const auto* v = as<VariableExpr>(&e);
-    auto it = v ? set_of_.find(v->variable) : set_of_.end();
+    const auto* i = as<IndexExpr>(&e);
+    auto it = set_of_.find(v ? v->variable : i ? i->variable : nullptr);
     return it == set_of_.end() ? nullptr : it->second;
   }
 
@@ -291,30 +318,77 @@ private:
   void observe_read(ExprPtr& e, Variable& set) {
     const SourceRange where = e->range;
     if (!wanted(where)) return;
-    Variable* x = make_.variable(VariableKind::kFormal, "x", e->type, where);
-    Variable* formal = make_.variable(VariableKind::kFormal, "set", Type::kFloat, where);
-    std::vector<ExprPtr> shown, run;
-    shown.push_back(make_.read(*formal, where));
-    run.push_back(mark(MarkKind::kRead, where, set.name, std::move(shown)));
-    std::vector<SyntaxMaker::Formal> others;
-    others.push_back({formal, make_.read(set, where)});
-    e = make_.pass_through(std::move(e), *x, std::move(others), std::move(run));
+    std::vector<SyntaxMaker::Formal> formals;
+    formals.push_back(make_.formal("x", std::move(e)));
+    formals.push_back(make_.formal("set", make_.read(set, where)));
+    Variable &x = *formals[0].variable, &known = *formals[1].variable;
+    ExprPtr shown = mark(MarkKind::kRead, where, set.name, list(make_.read(known, where)));
+    e = make_.call(std::move(formals), list(std::move(shown)), make_.read(x, where));
+  }
+
+  /// What hands a mark whether the element was set.
+  ExprPtr element_mark(Variable& known, const Variable& set, Variable& index, SourceRange where) {
+    return mark(MarkKind::kRead, where, set.name,
+                list(make_.element(known, make_.read(index, where)), whole(known, where, &set)));
+  }
+
+  /// `e` reads an element of an array.
+  void observe_element_read(ExprPtr& e, Variable& set) {
+    const SourceRange where = e->range;
+    if (!wanted(where)) return;
+    auto& old = static_cast<IndexExpr&>(*e);
+    std::vector<SyntaxMaker::Formal> formals;
+    formals.push_back(make_.formal("index", std::move(old.index)));
+    formals.push_back(make_.formal("array", make_.read(*old.variable, where)));
+    formals.push_back(make_.formal("set", make_.read(set, where)));
+    Variable &index = *formals[0].variable, &array = *formals[1].variable, &known = *formals[2].variable;
+    e = make_.call(std::move(formals), list(element_mark(known, set, index, where)),
+                   make_.element(array, make_.read(index, where)));
+  }
+
+  /// The subscript of an element that is stored to: the element counts as set, after it was read where it is.
+  void set_element(ExprPtr& subscript, Variable& set, bool read_too) {
+    const SourceRange where = subscript->range;
+    std::vector<SyntaxMaker::Formal> formals;
+    formals.push_back(make_.formal("index", std::move(subscript)));
+    formals.push_back(make_.formal("set", make_.read(set, where)));
+    Variable &index = *formals[0].variable, &known = *formals[1].variable;
+    std::vector<ExprPtr> run;
+    if (read_too && wanted(where)) run.push_back(element_mark(known, set, index, where));
+    run.push_back(make_.assign(make_.element(known, make_.read(index, where)), make_.number(1, where)));
+    subscript = make_.call(std::move(formals), std::move(run), make_.read(index, where));
+  }
+
+  /// `array[index] = value`: the element counts as set once the value is known.
+  void set_assigned_element(ExprPtr& e, Variable& set) {
+    auto& a = static_cast<AssignExpr&>(*e);
+    auto& target = static_cast<IndexExpr&>(*a.target);
+    const SourceRange where = e->range;
+    std::vector<SyntaxMaker::Formal> formals;
+    formals.push_back(make_.formal("index", std::move(target.index)));
+    formals.push_back(make_.formal("array", make_.read(*target.variable, where)));
+    formals.push_back(make_.formal("set", make_.read(set, where)));
+    formals.push_back(make_.formal("x", std::move(a.value)));
+    Variable &index = *formals[0].variable, &array = *formals[1].variable, &known = *formals[2].variable,
+             &x = *formals[3].variable;
+    ExprPtr knows = make_.assign(make_.element(known, make_.read(index, where)), make_.number(1, where));
+    ExprPtr store = make_.assign(make_.element(array, make_.read(index, where)), make_.read(x, where));
+    e = make_.call(std::move(formals), list(std::move(knows), std::move(store)), make_.read(x, where));
   }
 
   /// Once `e` has its value, the variables count as set.
   void set_after(ExprPtr& e, const std::vector<Variable*>& variables) {
     if (variables.empty()) return;
     const SourceRange where = e->range;
-    Variable* x = make_.variable(VariableKind::kFormal, "x", e->type, where);
-    std::vector<SyntaxMaker::Formal> others;
+    std::vector<SyntaxMaker::Formal> formals;
+    formals.push_back(make_.formal("x", std::move(e)));
+    Variable& x = *formals[0].variable;
     std::vector<ExprPtr> run;
     for (Variable* set : variables) {
-      Variable* formal = make_.variable(VariableKind::kFormal, "set", Type::kFloat, where);
-      formal->output = true;
-      others.push_back({formal, make_.read(*set, where)});
-      run.push_back(make_.assign(*formal, make_.number(1, where), where));
+      formals.push_back(make_.formal("set", make_.read(*set, where), true));
+      run.push_back(make_.assign(whole(*formals.back().variable, where, set), make_.number(1, where)));
     }
-    e = make_.pass_through(std::move(e), *x, std::move(others), std::move(run));
+    e = make_.call(std::move(formals), std::move(run), make_.read(x, where));
   }
 
   void named(const std::string& name, ExprPtr& value) {
@@ -331,13 +405,16 @@ private:
     case ExprKind::kVariable:
       if (Variable* set = set_of(*e)) observe_read(e, *set);
       break;
-    case ExprKind::kIndex: expr(static_cast<IndexExpr&>(*e).index); break;
+    case ExprKind::kIndex:
+      expr(static_cast<IndexExpr&>(*e).index);
+      if (Variable* set = set_of(*e)) observe_element_read(e, *set);
+      break;
     case ExprKind::kTuple: each(static_cast<TupleExpr&>(*e).elements); break;
     case ExprKind::kArrayInit: each(static_cast<ArrayInitExpr&>(*e).elements); break;
     case ExprKind::kOperator: each(static_cast<OperatorExpr&>(*e).operands); break;
     case ExprKind::kLogical:
       expr(static_cast<LogicalExpr&>(*e).left);
-      expr(static_cast<LogicalExpr&>(*e).right);
+      right_side(static_cast<LogicalExpr&>(*e));
       break;
     case ExprKind::kConditional: {
       auto& c = static_cast<ConditionalExpr&>(*e);
@@ -348,7 +425,7 @@ private:
     }
     case ExprKind::kConvert: expr(static_cast<ConvertExpr&>(*e).operand); break;
     case ExprKind::kCall: call(e); break;
-    case ExprKind::kAssign: assign(static_cast<AssignExpr&>(*e)); break;
+    case ExprKind::kAssign: assign(e); break;
     case ExprKind::kTargetValue:
       if (Variable* set = targets_.back()) observe_read(e, *set);
       break;
@@ -363,18 +440,24 @@ private:
       expr(e);
   }
 
-  /// A place: its subscript is an expression, the rest is not read.
-  void place(Expr& e) {
-    if (auto* i = as<IndexExpr>(&e)) expr(i->index);
+  /// A place that a call sets: its subscript is an expression, the rest is not read. What is set as a whole
+  /// is told.
+  Variable* place(Expr& e) {
+    auto* i = as<IndexExpr>(&e);
+    Variable* set = set_of(e);
+    if (!i) return set;
+    expr(i->index);
+    if (set) set_element(i->index, *set, false);
+    return nullptr;
   }
 
   void call(ExprPtr& e) {
     auto& c = static_cast<CallExpr&>(*e);
     std::vector<Variable*> set;
     auto argument = [&](ExprPtr& arg, bool output) {
-      if (!output) return expr(arg);
-      place(*arg);
-      if (Variable* v = set_of(*arg)) set.push_back(v);
+      // Arrays as a whole may be set or read in there.
+      if (!output && arg->array_length == kNotArray) return expr(arg);
+      if (Variable* v = place(*arg)) set.push_back(v);
     };
     for (size_t i = 0; i < c.args.size(); ++i)
       argument(c.args[i], c.function ? c.function->formals[i]->output
@@ -387,14 +470,23 @@ private:
       set_after(e, set);
   }
 
-  void assign(AssignExpr& a) {
+  void assign(ExprPtr& e) {
+    auto& a = static_cast<AssignExpr&>(*e);
     Variable* set = set_of(*a.target);
-    place(*a.target);
-    const auto* v = as<VariableExpr>(a.target.get());
-    targets_.push_back(set);
-    named(v ? v->name : static_cast<IndexExpr&>(*a.target).name, a.value);
+    auto* index = as<IndexExpr>(a.target.get());
+    if (index) expr(index->index);
+    targets_.push_back(index ? nullptr : set);
+    named(index ? index->name : static_cast<VariableExpr&>(*a.target).name, a.value);
     targets_.pop_back();
-    if (set) set_after(a.value, {set});
+    if (!set) return;
+    if (index && a.compound)
+      set_element(index->index, *set, true);
+    else if (index)
+      set_assigned_element(e, *set);
+    else if (a.target->array_length != kNotArray)
+      set_by_call_.push_back(set);
+    else
+      set_after(a.value, {set});
   }
 
   Instrumenter& out_;
@@ -417,6 +509,7 @@ Instrumenter::Instrumenter(InstrumentOptions options) : options_(std::move(optio
 }
 
 void Instrumenter::instrument(CheckedSource& checked, const SourceManager& sources) {
+  met_sources_ = true;
   Marker(*this, checked, sources).run();
 }
 

@@ -39,7 +39,7 @@ struct ProbeTarget {
 };
 
 struct InstrumentOptions {
-  bool statements = false, conditions = false, reads = false;
+  bool statements = false, conditions = false, right_sides = false, reads = false;
   std::optional<ProbeTarget> probe = {};
 };
 
@@ -62,6 +62,8 @@ public:
   std::string variable_at(std::string_view file, uint32_t line, uint32_t column) const;
   /// The text of a source file that was marked.
   const std::map<std::string, std::string>& files() const { return files_; }
+  /// False: all shaders so far came compiled, so that there was nothing to mark.
+  bool met_sources() const { return met_sources_; }
   /// Why there is no mark for the probe; "": there is one.
   const std::string& probe_problem() const { return probe_problem_; }
 
@@ -76,6 +78,7 @@ private:
   std::map<std::tuple<std::string, uint32_t, uint32_t>, std::string> variables_;
   std::map<std::string, std::string> files_;
   std::string probe_problem_;
+  bool met_sources_ = false;
 };
 
 } // namespace slvm::sltest

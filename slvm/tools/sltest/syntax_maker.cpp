@@ -33,22 +33,23 @@ ExprPtr SyntaxMaker::read(Variable& variable, SourceRange where) {
   e->name = variable.name;
   e->variable = &variable;
   e->type = variable.type;
+  e->array_length = variable.array_length;
   return e;
 }
 
-ExprPtr SyntaxMaker::element(Variable& array, int index, SourceRange where) {
-  auto e = std::make_unique<IndexExpr>(where);
+ExprPtr SyntaxMaker::element(Variable& array, ExprPtr index) {
+  auto e = std::make_unique<IndexExpr>(index->range);
   e->name = array.name;
   e->variable = &array;
   e->type = array.type;
-  e->index = number(static_cast<float>(index), where);
+  e->index = std::move(index);
   return e;
 }
 
-ExprPtr SyntaxMaker::assign(Variable& variable, ExprPtr value, SourceRange where) {
-  auto e = std::make_unique<AssignExpr>(where);
-  e->type = variable.type;
-  e->target = read(variable, where);
+ExprPtr SyntaxMaker::assign(ExprPtr target, ExprPtr value) {
+  auto e = std::make_unique<AssignExpr>(value->range);
+  e->type = target->type;
+  e->target = std::move(target);
   e->value = std::move(value);
   return e;
 }
@@ -73,32 +74,35 @@ StmtPtr SyntaxMaker::statement(ExprPtr expression) {
   return s;
 }
 
-ExprPtr SyntaxMaker::pass_through(ExprPtr value, Variable& x, std::vector<Formal> others,
-                                  std::vector<ExprPtr> body) {
-  const SourceRange where = value->range;
+SyntaxMaker::Formal SyntaxMaker::formal(const std::string& name, ExprPtr actual, bool output) {
+  Variable* v = variable(VariableKind::kFormal, name, actual->type, actual->range);
+  if (actual->array_length != kNotArray) v->array_length = kOpenArray;
+  v->output = output;
+  return {v, std::move(actual)};
+}
+
+ExprPtr SyntaxMaker::call(std::vector<Formal> formals, std::vector<ExprPtr> body, ExprPtr result) {
+  const SourceRange where = result->range;
   FunctionDef& f = unit_.functions.emplace_back();
-  f.name = "pass";
+  f.name = "mark";
   f.where = where;
-  f.result = value->type;
+  f.result = result->type;
   f.body = std::make_unique<BlockStmt>(where);
   for (ExprPtr& e : body)
     f.body->statements.push_back(statement(std::move(e)));
   auto back = std::make_unique<ReturnStmt>(where);
-  back->value = read(x, where);
+  back->value = std::move(result);
   f.body->statements.push_back(std::move(back));
 
-  auto call = std::make_unique<CallExpr>(where);
-  call->name = f.name;
-  call->function = &f;
-  call->type = f.result;
-  call->detail = value->detail;
-  f.formals.push_back(&x);
-  call->args.push_back(std::move(value));
-  for (Formal& other : others) {
-    f.formals.push_back(other.variable);
-    call->args.push_back(std::move(other.actual));
+  auto e = std::make_unique<CallExpr>(where);
+  e->name = f.name;
+  e->function = &f;
+  e->type = f.result;
+  for (Formal& formal : formals) {
+    f.formals.push_back(formal.variable);
+    e->args.push_back(std::move(formal.actual));
   }
-  return call;
+  return e;
 }
 
 ExprPtr SyntaxMaker::float_of_bool(ExprPtr condition) {

@@ -34,6 +34,8 @@ void hunt(const Setup& setup, const Prepared& prepared, ShaderLibrary& library, 
   RunError error;
   if (!run_marked(setup, prepared, library, config, marks, hunter, error))
     return findings.push_back(error.text);
+  if (options.reads && !marks.met_sources())
+    findings.push_back("--debuguninit: the shader is compiled; only sources (.sl) can be followed");
   for (std::string& text : hunter.findings())
     findings.push_back(std::move(text));
 }
@@ -111,7 +113,7 @@ std::unique_ptr<Probe> Watch::probe(const Setup& setup, const Prepared& prepared
   auto probe = std::make_unique<Probe>(*probe_marks_);
   if (!run_marked(setup, prepared, library, config, *probe_marks_, *probe, error)) return nullptr;
   std::string problem = probe_marks_->probe_problem();
-  if (problem.empty() && probe_marks_->marks().empty())
+  if (problem.empty() && !probe_marks_->met_sources())
     problem = "the shader is compiled; only sources (.sl) can be probed";
   if (problem.empty()) return probe;
   error = {Failure::kSetup, "--probe: " + problem};
