@@ -8,3 +8,4 @@ sl_tool_test(json 0 "${CMAKE_COMMAND} -DSLTEST=${sltest} -DHERE=${here} -DFILE=$
 sl_tool_test(json_nowhere 3 "${sltest} ${here}/watched.toml --quick --json ${CMAKE_CURRENT_BINARY_DIR}/none/report.json" "2 cases in 1 file passed|none/report.json")
 sl_tool_test(bench_of_a_shader 2 "${sltest} --expr u --bench" "--bench is for test files (.toml)")
 sl_tool_test(res_of_tests 2 "${sltest} ${here}/watched.toml -g 3 3" "--res is for one shader, not for test files")
+sl_tool_test(junit 0 "${CMAKE_COMMAND} -DSLTEST=${sltest} -DHERE=${here} -DFILE=${CMAKE_CURRENT_BINARY_DIR}/report.xml -P ${here}/junit.cmake" "the report is right")

@@ -85,8 +85,14 @@ std::string junit_text(const std::deque<FileReport>& reports) {
     double seconds = 0;
     for (const CaseReport& r : report.cases)
       seconds += r.seconds;
-    text += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" time=\"{:.4f}\">\n",
-                        escaped(report.file.name), report.cases.size(), failed_count(report), seconds);
+    text +=
+        fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.4f}\">\n",
+                    escaped(report.file.name), report.cases.size() + report.unreadable, failed_count(report),
+                    report.unreadable ? 1 : 0, seconds);
+    if (report.unreadable)
+      text += fmt::format(
+          "    <testcase name=\"file\" classname=\"{}\"><error message=\"missing or wrong\"/></testcase>\n",
+          escaped(report.file.name));
     for (const CaseReport& r : report.cases) {
       text +=
           fmt::format("    <testcase name=\"{}\" classname=\"{}\" file=\"{}\" line=\"{}\" time=\"{:.4f}\"",
