@@ -23,8 +23,10 @@ bool finite_at(const StepOperand& o, size_t point) {
 
 std::string value_text(const StepOperand& o, size_t point) {
   std::vector<float> numbers;
-  for (size_t k = 0; k < planes_of(o); ++k)
-    numbers.push_back(o.planes.get(k, point));
+  for (size_t k = 0; k < planes_of(o); ++k) {
+    const float x = o.planes.get(k, point);
+    numbers.push_back(std::isnan(x) ? std::abs(x) : x); // its sign depends on the processor
+  }
   return numbers.size() == 1 ? numbers_text(numbers) : fmt::format("({})", numbers_text(numbers));
 }
 
