@@ -230,7 +230,10 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
         std::fill_n(array.plane(i), array.step ? f.lanes : kMaxLanes, 0.0f);
       break;
     }
-    case Opcode::k_aload: array_load(f, m, at, {w, count}); break;
+    case Opcode::k_aload:
+      array_load(f, m, at, {w, count});
+      if constexpr (kObserved) state.observer->after({*this, f, m, at});
+      break;
     case Opcode::k_astore: array_store(f, m, at, {w, count}); break;
     case Opcode::k_if:
       m.push_if(condition(f, w));

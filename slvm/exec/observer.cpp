@@ -29,25 +29,44 @@ const ShadeopInfo* ExecutionStep::call() const {
   return opcode < kFirstShadeop ? nullptr : &shadeop(run_.program.imports[opcode - kFirstShadeop]);
 }
 
-std::vector<StepOperand> ExecutionStep::operands() const {
-  const ShadeopInfo* info = call();
-  if (!info) return {};
+StepOperand ExecutionStep::operand_of(uint32_t word) const {
   const Program& program = run_.program;
+  const Operand at = run_.operand(frame_, word);
+  StepOperand operand;
+  operand.planes = {at.data, at.pitch, at.step, Type::kFloat, 0};
+  uint32_t slot = operand_index(word);
+  bool external = operand_space(word) == Space::kSlot;
+  if (operand_space(word) == Space::kArray) {
+    const ArrayInfo& array = program.arrays[operand_index(word)];
+    operand.planes.type = array.type;
+    operand.planes.elements = array.elements;
+    external = array.space == Space::kSlot;
+    slot = array.index;
+  }
+  if (external) operand.variable = program.slots[slot].name;
+  return operand;
+}
+
+std::vector<StepOperand> ExecutionStep::operands() const {
+  const Program& program = run_.program;
+  const uint32_t *head = &program.code[code_], *words = head + 1;
+  std::vector<StepOperand> list;
+  const ShadeopInfo* info = call();
+  if (!info) {
+    if (static_cast<Opcode>(instruction_opcode(*head)) != Opcode::k_aload) return list;
+    list.push_back(operand_of(words[1]));
+    list.back().planes.elements = words[0];
+    list.back().stored = true;
+    list.push_back(operand_of(words[2]));
+    return list;
+  }
   std::vector<CallOperand> decoded;
   uint32_t level = 0;
-  decode_call(*info, {&program.code[code_ + 1], instruction_words(program.code[code_])}, decoded, level);
-  std::vector<StepOperand> list;
+  decode_call(*info, {words, instruction_words(*head)}, decoded, level);
   for (const CallOperand& o : decoded) {
-    const Operand at = run_.operand(frame_, o.word);
-    StepOperand& operand = list.emplace_back();
-    operand.planes = {at.data, at.pitch, at.step, o.type, o.array ? at.elements : 0};
-    operand.stored = o.store;
-    uint32_t slot = operand_index(o.word);
-    const bool array = operand_space(o.word) == Space::kArray;
-    if (array) slot = program.arrays[slot].index;
-    if (operand_space(o.word) == Space::kSlot ||
-        (array && program.arrays[operand_index(o.word)].space == Space::kSlot))
-      operand.variable = program.slots[slot].name;
+    list.push_back(operand_of(o.word));
+    list.back().planes.type = o.type;
+    list.back().stored = o.store;
   }
   return list;
 }

@@ -51,7 +51,8 @@ public:
   SourcePlace place() const { return place_of(program(), code_); }
   /// The function that is called, or null: one of the instructions of opcodes.def.
   const ShadeopInfo* call() const;
-  /// Operands of a call, those it stores first.
+  /// Operands of a call, those it stores first. Of the load of an array element what it stores, as a float
+  /// array of its components, and the array. None of other instructions.
   std::vector<StepOperand> operands() const;
 
   /// Points [first_point(), first_point() + points()) are looked at; those that are active have a bit in
@@ -64,6 +65,8 @@ public:
   const StringPool& strings() const;
 
 private:
+  StepOperand operand_of(uint32_t word) const;
+
   const ShaderRun& run_;
   const Frame& frame_;
   const MaskStack& mask_;
@@ -75,7 +78,8 @@ public:
   virtual ~ExecutionObserver() = default;
   /// Before each instruction. False leaves it out; only calls without results may be.
   virtual bool before(const ExecutionStep&) { return true; }
-  /// After each call of a function. Of what it stored only active points count.
+  /// After each call of a function, and each load of an array element. Of what it stored only active points
+  /// count.
   virtual void after(const ExecutionStep&) {}
   /// A shader begins, or has come to its end; in between others may, when lights run.
   virtual void begin_run(const Instance&) {}

@@ -12,7 +12,7 @@ function(run status text)
 endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
-file(MAKE_DIRECTORY ${FOLDER}/pictures)
+file(MAKE_DIRECTORY ${FOLDER})
 set(SCALE 100)
 configure_file(${INPUT} ${FOLDER}/golden.toml @ONLY)
 run(1 "Ci: there is no pictures/noise.exr; --update-goldens writes it")

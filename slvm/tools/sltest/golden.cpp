@@ -108,6 +108,8 @@ public:
 
 private:
   std::string update(const std::string& file, const std::vector<float>& pixels, int channels) {
+    std::error_code error;
+    if (fs::path(file).has_parent_path()) fs::create_directories(fs::path(file).parent_path(), error);
     auto written = write_image(file, pixels, grid_.nu, grid_.nv, channels, PixelSize::kSmall);
     if (!written) return written.error();
     updated_.push_back(file);

@@ -47,14 +47,14 @@ NanHunter::Finding& NanHunter::finding(const ExecutionStep& step, const std::str
   return findings_[it->second];
 }
 
-void NanHunter::read(const ExecutionStep& step, const StepOperand& operand) {
-  const bool parameter = find_global(operand.variable) == Global::kCount;
+void NanHunter::read(const ExecutionStep& step, std::string_view variable, const StepOperand& value) {
+  const bool parameter = find_global(variable) == Global::kCount;
   const size_t points = step.grid().points();
   for_each_active(step, [&](size_t point, size_t i) {
-    if (finite_at(operand, i)) return;
+    if (finite_at(value, i)) return;
     Finding& f = finding(step, fmt::format("{} '{}' is not finite where it is read",
-                                           parameter ? "parameter" : "variable", operand.variable));
-    if (f.points.empty()) f.tail = fmt::format("; first {}", value_text(operand, i));
+                                           parameter ? "parameter" : "variable", variable));
+    if (f.points.empty()) f.tail = fmt::format("; first {}", value_text(value, i));
     f.points.add(point, points);
   });
 }
@@ -62,9 +62,14 @@ void NanHunter::read(const ExecutionStep& step, const StepOperand& operand) {
 void NanHunter::after(const ExecutionStep& step) {
   const std::vector<StepOperand> operands = step.operands();
   const size_t points = step.grid().points();
+  if (!step.call()) { // an element of an array
+    if (!operands[1].variable.empty() && holds_numbers(operands[1]))
+      read(step, operands[1].variable, operands[0]);
+    return;
+  }
   const ShadeopInfo& call = *step.call();
   for (const StepOperand& o : operands)
-    if (!o.stored && !o.variable.empty() && holds_numbers(o)) read(step, o);
+    if (!o.stored && !o.variable.empty() && holds_numbers(o)) read(step, o.variable, o);
 
   // Differences see neighbours: one point that is not finite explains all.
   auto explained = [&](size_t i) {

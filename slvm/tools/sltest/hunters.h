@@ -31,7 +31,8 @@ private:
     size_t nu = 1;
   };
   Finding& finding(const ExecutionStep& step, const std::string& what);
-  void read(const ExecutionStep& step, const StepOperand& operand);
+  /// `variable` was read, which gave `value`.
+  void read(const ExecutionStep& step, std::string_view variable, const StepOperand& value);
 
   const Instrumenter& instrumenter_;
   std::vector<Finding> findings_;

@@ -1,5 +1,5 @@
-// The walk over one checked source that puts marks into it. Read instrument.h first; then instrument.cpp (statements),
-// marker_expressions.cpp (conditions, what is read and what is set) and marker_probe.cpp.
+// The walk over one checked source that puts marks into it. Read instrument.h first; then instrument.cpp
+// (statements), marker_expressions.cpp (conditions, what is read and what is set) and marker_probe.cpp.
 #pragma once
 
 #include "slvm/tools/sltest/instrument.h"
@@ -19,7 +19,8 @@ private:
   std::string file_of(SourceRange where) const;
   /// Not the text that sltest puts around expressions.
   bool wanted(SourceRange where) const;
-  slc::ExprPtr mark(MarkKind kind, SourceRange where, const std::string& name, std::vector<slc::ExprPtr> values);
+  slc::ExprPtr mark(MarkKind kind, SourceRange where, const std::string& name,
+                    std::vector<slc::ExprPtr> values);
 
   // ---- The probe (marker_probe.cpp).
   bool is_probed_file(SourceRange where) const;
@@ -57,7 +58,8 @@ private:
   /// `e` reads a variable: hands a mark whether that was set.
   void observe_read(slc::ExprPtr& e, slc::Variable& set);
   /// What hands a mark whether the element was set.
-  slc::ExprPtr element_mark(slc::Variable& known, const slc::Variable& set, slc::Variable& index, SourceRange where);
+  slc::ExprPtr element_mark(slc::Variable& known, const slc::Variable& set, slc::Variable& index,
+                            SourceRange where);
   /// `e` reads an element of an array.
   void observe_element_read(slc::ExprPtr& e, slc::Variable& set);
   /// The subscript of an element that is stored to: the element counts as set, after it was read where it is.
@@ -84,7 +86,8 @@ private:
   std::vector<slc::Variable*> scope_; ///< what is declared so far, innermost last
   std::map<const slc::Variable*, slc::Variable*> set_of_;
   std::vector<slc::Variable*> set_by_call_;
-  std::vector<slc::Variable*> targets_;    ///< of the assignments around, whether they are set; null: not followed
+  std::vector<slc::Variable*>
+      targets_;                       ///< of the assignments around, whether they are set; null: not followed
   std::vector<std::string> computed_; ///< variables whose values are being computed
   std::vector<std::string> results_;  ///< of the functions around
 };

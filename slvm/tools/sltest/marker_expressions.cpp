@@ -1,5 +1,5 @@
-// Conditions, and reads and assignments of variables that may not be set: expressions are replaced by calls of
-// functions that hand a mark what it wants to know, and return what the expression gave.
+// Conditions, and reads and assignments of variables that may not be set: expressions are replaced by calls
+// of functions that hand a mark what it wants to know, and return what the expression gave.
 #include "slvm/tools/sltest/marker.h"
 
 #include <fmt/format.h>

@@ -77,9 +77,8 @@ StmtPtr Marker::probe(SourceRange where) {
     for (const Variable* known : scope_)
       names.push_back(known->name);
     if (!found_)
-      out_.probe_problem_ =
-          fmt::format("no variable '{}' at {}:{}; there are {}", out_.options_.probe->name, file_of(where),
-                      where.line, fmt::join(names, ", "));
+      out_.probe_problem_ = fmt::format("no variable '{}' at {}:{}; there are {}", out_.options_.probe->name,
+                                        file_of(where), where.line, fmt::join(names, ", "));
     return nullptr;
   }
   found_ = true;

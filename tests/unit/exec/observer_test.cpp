@@ -19,7 +19,7 @@ struct Watcher : ExecutionObserver {
     return !leave_out || !step.call() || step.call()->name != name;
   }
   void after(const ExecutionStep& step) override {
-    if (step.call()->name != name) return;
+    if (!step.call() || step.call()->name != name) return;
     points += step.active_points();
     lines.push_back(step.place().line);
     for (const StepOperand& o : step.operands())
