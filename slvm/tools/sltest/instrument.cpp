@@ -65,8 +65,8 @@ void Marker::block(BlockStmt& b) {
     if (out_.options_.statements && does_something(*s) && wanted(where))
       list.push_back(make_.statement(mark(MarkKind::kStatement, where, "", {})));
     const bool here = probed(*s), leaves = as<JumpStmt>(s.get()) || as<ReturnStmt>(s.get());
-    const bool before = here && (leaves || as<IfStmt>(s.get()));
-    const bool after = here && !before && bodies(*s).empty() && !as<BlockStmt>(s.get());
+    const bool before = here && (as<IfStmt>(s.get()) || (leaves && !in_probed_if_));
+    const bool after = here && !before && !leaves && bodies(*s).empty() && !as<BlockStmt>(s.get());
     if (before) add(probe(where));
     statement(*s);
     list.push_back(std::move(s));
@@ -98,8 +98,10 @@ void Marker::statement(Stmt& s) {
   case StmtKind::kIf: {
     auto& i = static_cast<IfStmt&>(s);
     condition(i.condition, "if", s.range);
+    const bool outer = std::exchange(in_probed_if_, probed(s));
     body(i.then_branch);
     body(i.else_branch);
+    in_probed_if_ = outer;
     break;
   }
   case StmtKind::kLoop: loop(static_cast<LoopStmt&>(s)); break;

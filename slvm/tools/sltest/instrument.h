@@ -65,7 +65,7 @@ public:
   /// False: all shaders so far came compiled, so that there was nothing to mark.
   bool met_sources() const { return met_sources_; }
   /// Why there is no mark for the probe; "": there is one.
-  const std::string& probe_problem() const { return probe_problem_; }
+  std::string probe_problem() const { return probe_found_ ? "" : probe_problem_; }
 
 private:
   friend class Marker;
@@ -77,6 +77,7 @@ private:
   std::map<Mark, uint32_t> numbers_;
   std::map<std::tuple<std::string, uint32_t, uint32_t>, std::string> variables_;
   std::map<std::string, std::string> files_;
+  bool probe_found_ = false; ///< in one of the shaders; the others do not matter
   std::string probe_problem_;
   bool met_sources_ = false;
 };

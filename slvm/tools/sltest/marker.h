@@ -82,7 +82,7 @@ private:
   const SourceManager& sources_;
   SyntaxMaker make_;
   uint32_t probe_line_ = 0;
-  bool found_ = false;
+  bool in_probed_if_ = false;         ///< the value was taken before it
   std::vector<slc::Variable*> scope_; ///< what is declared so far, innermost last
   std::map<const slc::Variable*, slc::Variable*> set_of_;
   std::vector<slc::Variable*> set_by_call_;

@@ -76,13 +76,11 @@ StmtPtr Marker::probe(SourceRange where) {
     std::vector<std::string_view> names;
     for (const Variable* known : scope_)
       names.push_back(known->name);
-    if (!found_)
-      out_.probe_problem_ = fmt::format("no variable '{}' at {}:{}; there are {}", out_.options_.probe->name,
-                                        file_of(where), where.line, fmt::join(names, ", "));
+    out_.probe_problem_ = fmt::format("no variable '{}' at {}:{}; there are {}", out_.options_.probe->name,
+                                      file_of(where), where.line, fmt::join(names, ", "));
     return nullptr;
   }
-  found_ = true;
-  out_.probe_problem_.clear();
+  out_.probe_found_ = true;
   std::vector<ExprPtr> values;
   if (v->array_length == kNotArray) values.push_back(make_.read(*v, where));
   for (int i = 0; i < v->array_length; ++i)
