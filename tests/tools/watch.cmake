@@ -25,4 +25,4 @@ sl_tool_test(debugnan_right_side 0 "${sltest} --expr u>2&&1/v>2?1:0 -g 3 1 --set
 sl_tool_test(debugnan_arrays 1 "${sltest} ${here}/notfinite.sl -g 3 1 --param list [1,2,inf] -o result null --debugnan" "notfinite.sl:4: surface \"notfinite\": 'log' for 'local' gives a number that is not finite at 3 of 3 points: (0, 0), (1, 0), (2, 0); first -inf from 0|notfinite.sl:5: surface \"notfinite\": parameter 'list' is not finite where it is read at 1 of 3 points: (2, 0); first inf")
 sl_tool_test(coverage_nowhere 1 "${watched} --coverage-pages ${here}/watched.sl/pages" "watched.sl/pages: ")
 sl_tool_test(probe_in_light 0 "${sltest} ${standard}/matte.sl --light ${standard}/distantlight.sl:intensity=2 --probe distantlight.sl:14:intensity" "  intensity : 2\n")
-sl_tool_test(probe_beside_lights 0 "${sltest} ${standard}/matte.sl --light ${standard}/distantlight.sl --probe matte.sl:12:Nf" "  Nf : 0 0 -1\n")
+sl_tool_test(probe_beside_lights 0 "${sltest} ${standard}/matte.sl --light ${standard}/distantlight.sl --probe matte.sl:12:Nf" "  Nf : -0 -0 -1\n")
