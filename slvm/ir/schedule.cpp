@@ -151,6 +151,7 @@ private:
   void flush() {
     if (in_strip_ || pending_.empty()) return;
     std::vector<InstAction> actions = std::exchange(pending_, {});
+    const SourceRange where = where_; // of the instruction before which this is done
     uint32_t begin = add(Opcode::k_strip, {target(0), word(0)});
     in_strip_ = true;
     ends_.push_back({});
@@ -160,10 +161,12 @@ private:
     if (out_.insts.size() == begin + 1) { // all of it was copies of values to themselves
       out_.insts.pop_back();
       ends_.pop_back();
+      where_ = where;
       return;
     }
     uint32_t end = add(Opcode::k_endstrip, {});
     close(end);
+    where_ = where;
     out_.insts[begin].operands[0] = target(end);
     if (!levels_.empty()) levels_.back().strips.push_back(begin);
   }

@@ -1,6 +1,6 @@
-// Vector fusion: a product that only a sum uses is computed with it, in one instruction. Half of the instructions
-// of noise sums and lighting are such pairs; fused, the product never leaves its registers. Both are rounded, as
-// written, so that results are the same bits.
+// Vector fusion: a product that only a sum uses is computed with it, in one instruction. Half of the
+// instructions of noise sums and lighting are such pairs; fused, the product never leaves its registers. Both
+// are rounded, as written, so that results are the same bits.
 #include "slvm/ir/passes/passes.h"
 
 #include "slvm/ir/build.h"
@@ -42,11 +42,14 @@ private:
     add_rows(sum, factor, factor, "float", false);
     add_rows(sum, factor, "float", factor, true);
   }
-  void add_rows(std::string_view sum, std::string_view product, std::string_view a, std::string_view b, bool turned) {
-    Pair p{find_shadeop("operator*", fmt::format("{}({} a, {} b)", product, a, b)),
-           find_shadeop("operator+", fmt::format("{0}({0} a, {1} b)", sum, product)),
-           find_shadeop("operator+", fmt::format("{0}({1} a, {0} b)", sum, product)),
-           find_shadeop("muladd", fmt::format("{0}({1} a, {2} b, {0} c)", sum, turned ? b : a, turned ? a : b)), turned};
+  void add_rows(std::string_view sum, std::string_view product, std::string_view a, std::string_view b,
+                bool turned) {
+    Pair p{
+        find_shadeop("operator*", fmt::format("{}({} a, {} b)", product, a, b)),
+        find_shadeop("operator+", fmt::format("{0}({0} a, {1} b)", sum, product)),
+        find_shadeop("operator+", fmt::format("{0}({1} a, {0} b)", sum, product)),
+        find_shadeop("muladd", fmt::format("{0}({1} a, {2} b, {0} c)", sum, turned ? b : a, turned ? a : b)),
+        turned};
     if (p.product >= 0 && p.sum >= 0 && p.fused >= 0) pairs_.push_back(p);
   }
 

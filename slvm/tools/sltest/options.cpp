@@ -167,7 +167,9 @@ std::string finish(const Texts& texts, Options& options) {
 
 void add_run_options(CLI::App& app, Options& o, Texts& texts) {
   auto group = [](CLI::Option* option) { return option->group(kRunGroup); };
-  group(app.add_option("-g,--res", texts.resolution, "Resolution of the grid (1 1)")->expected(2))
+  group(app.add_option("-g,--res", texts.resolution, "Resolution of the grid (1 1)")
+            ->expected(2)
+            ->allow_extra_args(false))
       ->type_name("NU NV")
       ->check(CLI::Range(1, 16384).description(""));
   group(app.add_option("-o", o.outputs, "Store a variable: .png .tif .exr .pfm .csv .txt, or null"))

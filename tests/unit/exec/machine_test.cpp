@@ -120,6 +120,12 @@ TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
   EXPECT_EQ(messages[0].points, 10u);
 }
 
+TEST_F(MachineTest, MessagesNameTheLineOfTheirCallWhateverWaitsBeforeIt) {
+  shade("surface s(output varying float x = 0;) {\n if (u > 0.4)\n x = sqrt(v);\n error(\"here\");\n}");
+  ASSERT_EQ(machine.messages().size(), 1u);
+  EXPECT_EQ(machine.messages()[0].line, 4u);
+}
+
 TEST_F(MachineTest, MessagesReachTheApplicationAsTheyOccurAndAreFolded) {
   std::vector<RuntimeMessage> log;
   Machine logged({.on_message = [&](const RuntimeMessage& m) { log.push_back(m); }});
