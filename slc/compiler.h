@@ -16,6 +16,9 @@ namespace slc {
 
 class BuiltinLibrary;
 
+/// What --version prints and compiled shaders remember.
+inline constexpr std::string_view kVersion = "slc (Anemone) 0.1.0";
+
 struct CompileOptions {
   /// Include folders, macros, and how files are read.
   PreprocessOptions preprocess;

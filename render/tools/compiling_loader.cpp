@@ -6,18 +6,17 @@
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
+#include "slvm/format/stale.h"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
+#include <span>
 
 namespace render::tools {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 class CompilingLoader {
 public:
@@ -35,24 +34,21 @@ private:
   std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_;
 };
 
-/// Whether a source stands beside a compiled shader and was changed after it.
-bool is_stale(const std::string& compiled, const fs::path& source) {
-  std::error_code error;
-  auto changed = fs::last_write_time(source, error);
-  if (error) return false;
-  auto made = fs::last_write_time(compiled, error);
-  return !error && changed > made;
-}
-
 slvm::Result<std::string> CompilingLoader::load(const std::string& name,
                                                 const std::vector<std::string>& path) {
-  if (name.ends_with(".slo")) return load_compiled_shader(name, path);
-  auto compiled = find_file(name + ".slo", path);
-  if (compiled) {
-    fs::path source = fs::path(*compiled).replace_extension(".sl");
-    if (is_stale(*compiled, source)) return compile(source.string(), name, path);
-    return load_compiled_shader(name, path);
+  bool as_it_is = name.ends_with(".slo");
+  if (auto compiled = find_file(as_it_is ? name : name + ".slo", path)) {
+    auto bytes = load_compiled_shader(name, path);
+    if (!bytes) return bytes;
+    auto program = slvm::read_slo(std::as_bytes(std::span(*bytes)));
+    if (!program) return bytes; // whoever loads it says what is wrong
+    std::string warning = slvm::stale_warning(*program, *compiled, !as_it_is);
+    if (warning.empty()) return bytes;
+    show_(fmt::format("slrender: warning: {}\n", warning));
+    if (as_it_is) return bytes;
+    return compile(slvm::find_source(*program, *compiled, program->source_name), name, path);
   }
+  if (as_it_is) return no_such_shader(name, path);
   if (auto source = find_file(name + ".sl", path)) return compile(*source, name, path);
   return no_such_shader(name, path);
 }

@@ -1,5 +1,5 @@
-// A shader loader that also takes sources: when the search path has NAME.sl and no NAME.slo, or an older one
-// beside it, the source is compiled in memory.
+// A shader loader that also takes sources: when the search path has NAME.sl and no NAME.slo, or a NAME.slo
+// whose source has changed since (slvm/format/stale.h), the source is compiled in memory.
 #pragma once
 
 #include "render/shading/shader_loader.h"
@@ -9,7 +9,7 @@
 
 namespace render::tools {
 
-/// `show` gets the compiler's messages, ready to be printed.
+/// `show` gets warnings and the compiler's messages, ready to be printed.
 ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show);
 
 } // namespace render::tools

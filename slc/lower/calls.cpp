@@ -7,7 +7,16 @@
 namespace slc {
 
 slvm::ir::ValueId Lowering::call(const CallExpr& e) {
+  if (e.shadeop != kNoShadeop) note_call(e.shadeop);
   return e.function ? inline_function(e) : builtin_call(e);
+}
+
+// What bodies of built-ins call is no call of the source. A function inlined twice calls in one place all the
+// same.
+void Lowering::note_call(ShadeopId row) {
+  if (library_depth_ > 0 || slvm::shadeop(row).flags & slvm::kInternal) return;
+  slvm::SourceCall call{row, b_.where.file, b_.where.line, b_.where.column};
+  if (std::find(calls_.begin(), calls_.end(), call) == calls_.end()) calls_.push_back(call);
 }
 
 // Formals are variables of their own: output ones are copied back afterwards, which no RSL program can tell
@@ -39,7 +48,9 @@ slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
     declared_.push_back(result);
     values_[result] = zero(f.result);
   }
+  library_depth_ += e.shadeop != kNoShadeop;
   function_body(*f.body, result);
+  library_depth_ -= e.shadeop != kNoShadeop;
   values_.resize(variable_types_.size(), ir::kNoValue);
   ValueId out = result ? values_[result] : ir::kNoValue;
   std::vector<ValueId> stored(f.formals.size(), ir::kNoValue);

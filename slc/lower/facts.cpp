@@ -1,5 +1,6 @@
 // What is read off finished code: facts for introspection, defaults of parameters.
 #include "slc/lower/lower.h"
+#include "slc/lower/uses.h"
 
 #include <algorithm>
 #include <set>
@@ -66,32 +67,31 @@ void settle_defaults(ir::Module& m) {
   m.inits = std::move(kept);
 }
 
-slvm::Facts collect_facts(const ir::Module& m) {
+slvm::Facts collect_facts(const ir::Module& m, const std::vector<slvm::SourceCall>& calls) {
+  const Uses uses = collect_uses(m, calls);
   slvm::Facts facts;
-  std::set<std::string> messages, textures, shadeops;
-  std::vector<const ir::Constant*> constants(m.values.size());
-  auto visit = [&](ir::InstId id) {
-    const ir::Inst& inst = m.insts[id];
-    if (inst.op == ir::Op::kConstant) constants[inst.results[0]] = &m.constants[inst.index];
-    if (inst.op == ir::Op::kIlluminance) facts.lights = true;
-    if (inst.op != ir::Op::kCall) return;
-    const slvm::ShadeopInfo& info = slvm::shadeop(static_cast<ShadeopId>(inst.index));
-    facts.derivatives |= (info.flags & slvm::kDerivative) != 0;
-    facts.lights |= (info.flags & slvm::kLights) != 0;
-    facts.rays |= (info.flags & slvm::kRays) != 0;
-    facts.textures |= (info.flags & slvm::kTexture) != 0;
-    if (!(info.flags & slvm::kInternal)) shadeops.insert(std::string(info.name));
-    const ir::Constant* first = inst.args.empty() ? nullptr : constants[inst.args[0]];
-    if (!first || first->type != Type::kString) return;
-    if (info.flags & slvm::kTexture && !first->text.empty()) textures.insert(first->text);
-    if (info.flags & slvm::kMessage) messages.insert(std::string(info.name) + ":" + first->text);
+  auto named = [](const std::vector<Use>& list, bool with_function) {
+    std::set<std::string> names;
+    for (const Use& use : list)
+      if (use.name.kind == Naming::kConstant && !use.name.text.empty())
+        names.insert(with_function ? use.by + ":" + use.name.text : use.name.text);
+    return std::vector<std::string>(names.begin(), names.end());
   };
-  for (const ir::Region& r : m.inits)
-    ir::for_each_inst(m, r, visit);
-  ir::for_each_inst(m, m.body, visit);
-  facts.messages_read.assign(messages.begin(), messages.end());
-  facts.texture_names.assign(textures.begin(), textures.end());
-  facts.shadeops.assign(shadeops.begin(), shadeops.end());
+  facts.derivatives = !uses.derivatives.empty();
+  facts.lights = std::any_of(uses.lights.begin(), uses.lights.end(), [](const Use& use) {
+    return use.by != "illuminate" && use.by != "solar"; // these make light
+  });
+  facts.textures = !uses.textures.empty();
+  facts.rays = !uses.rays.empty();
+  facts.messages_read = named(uses.messages, true);
+  facts.texture_names = named(uses.textures, false);
+  std::set<std::string> names;
+  for (const CallUse& use : uses.calls) {
+    names.insert(std::string(slvm::shadeop(use.shadeop).name));
+    for (const SourceRange& place : use.places)
+      facts.calls.push_back({use.shadeop, place.file, place.line, place.column});
+  }
+  facts.shadeops.assign(names.begin(), names.end());
   return facts;
 }
 

@@ -18,7 +18,7 @@ namespace ir = slvm::ir;
 
 class Lowering {
 public:
-  Lowering(const Shader& shader, std::vector<std::string> files);
+  Lowering(const Shader& shader, std::vector<std::string> files, std::vector<slvm::SourceCall>& calls);
   ir::Module run();
 
 private:
@@ -46,6 +46,8 @@ private:
 
   // ---- statements.cpp
   void statement(const Stmt& s);
+  /// What is made from now on belongs to the beginning of the statement.
+  void back_to(const Stmt& s);
   void block(const BlockStmt& s);
   void declaration(const Variable& v);
   void if_statement(const IfStmt& s);
@@ -112,6 +114,7 @@ private:
   ValueId call(const CallExpr& e);
   ValueId inline_function(const CallExpr& e);
   ValueId builtin_call(const CallExpr& e);
+  void note_call(ShadeopId row);
   /// A call whose result comes first and whose outputs go to these places; gives the result.
   ValueId call_into(ShadeopId, const Values& args, const std::vector<Type>& result_types,
                     const std::vector<Place>& places);
@@ -142,6 +145,8 @@ private:
     size_t frame = 0;
   };
   std::vector<Function> functions_;
+  std::vector<slvm::SourceCall>& calls_;
+  int library_depth_ = 0;        ///< RSL bodies of built-ins around this point
   std::vector<ValueId> targets_; ///< old values of compound assignments being evaluated
   size_t random_counter_ = 0;    ///< variable index of the hidden counter behind random()
   bool uniform_wanted_ =
@@ -150,6 +155,7 @@ private:
 
 template <class Then, class Else>
 slvm::ir::ValueId Lowering::branch(ValueId condition, Type type, Then&& then_side, Else&& else_side) {
+  const SourceRange here = b_.where;
   Values before = values_;
   ValueId results[2] = {ir::kNoValue, ir::kNoValue};
   Values after[2];
@@ -188,6 +194,7 @@ slvm::ir::ValueId Lowering::branch(ValueId condition, Type type, Then&& then_sid
   std::vector<ir::Region> list;
   list.push_back(std::move(regions[0]));
   list.push_back(std::move(regions[1]));
+  b_.where = here;
   ir::InstId id = b_.region_inst(ir::Op::kIf, 0, {condition}, std::move(list), types);
   values_ = before;
   values_.resize(variable_types_.size(), ir::kNoValue);

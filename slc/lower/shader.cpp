@@ -7,7 +7,8 @@
 
 namespace slc {
 
-Lowering::Lowering(const Shader& shader, std::vector<std::string> files) : shader_(shader), b_(m_) {
+Lowering::Lowering(const Shader& shader, std::vector<std::string> files, std::vector<slvm::SourceCall>& calls)
+    : shader_(shader), b_(m_), calls_(calls) {
   m_.kind = shader.kind;
   m_.name = shader.name;
   m_.files = std::move(files);
@@ -248,8 +249,9 @@ void Lowering::store_changed(bool outputs_only) {
   }
 }
 
-slvm::ir::Module lower_shader(const Shader& shader, std::vector<std::string> files) {
-  return Lowering(shader, std::move(files)).run();
+slvm::ir::Module lower_shader(const Shader& shader, std::vector<std::string> files,
+                              std::vector<slvm::SourceCall>& calls) {
+  return Lowering(shader, std::move(files), calls).run();
 }
 
 } // namespace slc

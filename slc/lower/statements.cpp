@@ -41,9 +41,13 @@ void Lowering::open_carried(ir::Region& region, const std::vector<size_t>& carri
   }
 }
 
+void Lowering::back_to(const Stmt& s) {
+  if (s.range.valid()) b_.where = s.range;
+}
+
 void Lowering::statement(const Stmt& s) {
   if (b_.terminated()) return; // not reached
-  if (s.range.valid()) b_.where = s.range;
+  back_to(s);
   switch (s.kind) {
   case StmtKind::kEmpty:
   case StmtKind::kFunction: break;
@@ -154,6 +158,7 @@ void Lowering::loop(const LoopStmt& s) {
   frames_.pop_back();
   std::vector<ir::Region> regions;
   regions.push_back(std::move(body));
+  back_to(s);
   ir::InstId id =
       b_.region_inst(ir::Op::kLoop, 0, std::move(initial), std::move(regions), types_of(frame.carried));
   set_values(frame.carried, m_.insts[id].results);
@@ -233,6 +238,7 @@ void Lowering::illuminance(const IlluminanceStmt& s) {
   frames_.pop_back();
   std::vector<ir::Region> regions;
   regions.push_back(std::move(body));
+  back_to(s);
   ir::InstId id = b_.region_inst(ir::Op::kIlluminance, s.axis ? 1 : 0, std::move(args), std::move(regions),
                                  types_of(frame.carried));
   set_values(frame.carried, m_.insts[id].results);
@@ -273,6 +279,7 @@ void Lowering::emission(const EmissionStmt& s) {
   args.insert(args.end(), otherwise.begin(), otherwise.end());
   std::vector<ir::Region> regions;
   regions.push_back(std::move(body));
+  back_to(s);
   ir::InstId id = b_.region_inst(s.is_solar ? ir::Op::kSolar : ir::Op::kIlluminate, s.axis ? 1 : 0,
                                  std::move(args), std::move(regions), types_of(changed));
   for (size_t i = 0; i < changed.size(); ++i)

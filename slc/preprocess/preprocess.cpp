@@ -39,9 +39,6 @@ constexpr size_t kMaxExpansions = 200'000;
 // What Wave calls the main file: any other name it would make an absolute path.
 constexpr const char* kMainName = "<stdin>";
 
-// Where included files come from that the library brings along.
-constexpr std::string_view kStandardFolder = "<anemone>/";
-
 struct GiveUp {}; // thrown and caught inside this file
 
 // A position by line, then column: order of characters in a file.

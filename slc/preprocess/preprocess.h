@@ -21,6 +21,9 @@ using FileReader = std::function<std::optional<std::string>(const std::string& p
 /// The reader for files on disk.
 std::optional<std::string> read_file(const std::string& path);
 
+/// What names of files begin with that the library brings along.
+inline constexpr std::string_view kStandardFolder = "<anemone>/";
+
 struct PreprocessOptions {
   std::vector<std::string> include_dirs; ///< in search order, after the including file's own folder for "..."
   std::vector<std::string> defines;      ///< NAME or NAME=VALUE

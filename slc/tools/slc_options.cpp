@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kVersion = "slc (Anemone) 0.1.0";
-
 // Options of several letters behind one dash, and what they are called here.
 constexpr std::string_view kSingleDash[] = {"-MM",     "-MD",   "-MMD",    "-MF",        "-MT",
                                             "-nw",     "-lint", "-nolint", "-lintpoint", "-lintspace",

@@ -12,7 +12,7 @@ namespace {
 
 class Disassembler {
 public:
-  explicit Disassembler(const Program& p) : p_(p) {}
+  Disassembler(const Program& p, const LineText& text) : p_(p), text_(text) {}
 
   std::string run() {
     out_ = fmt::format("{} \"{}\": {} uniform, {} strip, {} grid planes, mask depth {}\n",
@@ -24,7 +24,9 @@ public:
         section(it - p_.sections.begin());
       while (line < p_.lines.size() && p_.lines[line].code <= at)
         ++line;
-      at += instruction(at, line ? p_.lines[line - 1].line : 0);
+      const LineEntry* entry = line ? &p_.lines[line - 1] : nullptr;
+      if (text_ && entry) source_line(*entry);
+      at += instruction(at, entry && !text_ ? entry->line : 0);
     }
     return std::move(out_);
   }
@@ -32,9 +34,18 @@ public:
 private:
   void section(std::ptrdiff_t index) {
     indent_ = 1;
+    shown_ = {};
     if (index == 0) out_ += "main:\n";
     for (const Param& param : p_.params)
       if (index > 0 && param.init == index) out_ += fmt::format("default of {}:\n", param.name);
+  }
+
+  void source_line(const LineEntry& entry) {
+    if (entry.file == shown_.file && entry.line == shown_.line) return;
+    shown_ = entry;
+    std::string_view file = entry.file < p_.files.size() ? std::string_view(p_.files[entry.file]) : "";
+    std::string text = text_(entry.file, entry.line);
+    out_ += fmt::format("; {}:{}{}{}\n", file, entry.line, text.empty() ? "" : ": ", text);
   }
 
   std::string operand(uint32_t word) const {
@@ -98,6 +109,8 @@ private:
   }
 
   const Program& p_;
+  const LineText& text_;
+  LineEntry shown_; // the source line shown last
   std::string out_;
   std::vector<CallOperand> operands_;
   int indent_ = 1;
@@ -105,8 +118,8 @@ private:
 
 } // namespace
 
-std::string disassemble(const Program& program) {
-  return Disassembler(program).run();
+std::string disassemble(const Program& program, const LineText& text) {
+  return Disassembler(program, text).run();
 }
 
 } // namespace slvm

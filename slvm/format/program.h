@@ -103,6 +103,22 @@ struct Annotation {
   bool operator==(const Annotation&) const = default;
 };
 
+/// A call of a built-in in the source, of which code is left. Built-ins with RSL bodies are inlined: the code
+/// does not show them.
+struct SourceCall {
+  ShadeopId shadeop = 0;
+  uint32_t file = 0; ///< index into Program::files
+  uint32_t line = 0, column = 0;
+  bool operator==(const SourceCall&) const = default;
+};
+
+/// A file the shader was made from, by the name under which the compiler found it.
+struct SourceFile {
+  std::string name;
+  uint64_t hash = 0; ///< FNV-1a of its contents
+  bool operator==(const SourceFile&) const = default;
+};
+
 /// What introspection tells about a shader beside its parameters.
 struct Facts {
   bool derivatives = false, lights = false, textures = false, rays = false;
@@ -110,6 +126,7 @@ struct Facts {
   std::vector<std::string> texture_names; ///< constant ones
   std::vector<std::string> shadeops;      ///< names of the built-ins called, sorted
   std::vector<std::string> plugins;       ///< DSO shadeops' libraries
+  std::vector<SourceCall> calls;          ///< in the order of the code
   bool operator==(const Facts&) const = default;
 };
 
@@ -118,6 +135,10 @@ struct Program {
   std::string name;
   std::string source_name;
   uint64_t source_hash = 0; ///< FNV-1a of the preprocessed text
+  /// The main file, then those it includes, without the headers built into the compiler: what stale.h
+  /// compares. Empty in files of older compilers.
+  std::vector<SourceFile> sources;
+  std::string compiler; ///< name and version of what made it, "" if unknown
   std::vector<Annotation> annotations;
   std::vector<Param> params;
   Facts facts;

@@ -39,6 +39,12 @@ public:
   }
 
 private:
+  template <class T, class F> auto tables(const std::vector<T>& list, F&& make) {
+    std::vector<decltype(make(list[0]))> offsets;
+    for (const T& item : list)
+      offsets.push_back(make(item));
+    return b_.CreateVector(offsets);
+  }
   auto strings(const std::vector<std::string>& list) { return b_.CreateVectorOfStrings(list); }
 
   flatbuffers::Offset<fb::Value> value(const Value& v) {
@@ -72,14 +78,17 @@ private:
     auto textures = strings(f.texture_names);
     auto shadeop_names = strings(f.shadeops);
     auto plugins = strings(f.plugins);
+    std::vector<ShadeopId> called;
+    std::vector<fb::SourceCall> call_list;
+    for (const SourceCall& c : f.calls) {
+      auto row = std::find(called.begin(), called.end(), c.shadeop);
+      call_list.emplace_back(static_cast<uint32_t>(row - called.begin()), c.file, c.line, c.column);
+      if (row == called.end()) called.push_back(c.shadeop);
+    }
+    auto called_rows = tables(called, [&](ShadeopId id) { return import(id); });
+    auto calls = b_.CreateVectorOfStructs(call_list);
     return fb::CreateFacts(b_, f.derivatives, f.lights, f.textures, f.rays, messages, textures, shadeop_names,
-                           plugins);
-  }
-  template <class T, class F> auto tables(const std::vector<T>& list, F&& make) {
-    std::vector<decltype(make(list[0]))> offsets;
-    for (const T& item : list)
-      offsets.push_back(make(item));
-    return b_.CreateVector(offsets);
+                           plugins, called_rows, calls);
   }
 
   flatbuffers::Offset<fb::Shader> shader(const Program& p) {
@@ -109,10 +118,14 @@ private:
       line_list.emplace_back(l.code, l.file, l.line, l.column);
     auto lines = b_.CreateVectorOfStructs(line_list);
     auto ir = b_.CreateVector(p.ir);
+    auto sources = tables(p.sources, [&](const SourceFile& s) {
+      return fb::CreateSourceFile(b_, b_.CreateString(s.name), s.hash);
+    });
+    auto compiler = b_.CreateString(p.compiler);
     return fb::CreateShader(b_, static_cast<uint8_t>(p.kind), name, source, p.source_hash, annotations,
                             params, fact_table, imports, slots, constants, texts, string_constants, arrays,
                             p.uniform_planes, p.strip_planes, p.grid_planes, p.mask_depth, code, sections,
-                            files, lines, ir);
+                            files, lines, ir, sources, compiler);
   }
 
   flatbuffers::FlatBufferBuilder b_;
@@ -156,6 +169,18 @@ const char* read_param(const fb::Param& in, Param& out) {
   return nullptr;
 }
 
+// Calls of built-ins that this version does not have are left out: they are for introspection only.
+const char* read_calls(const fb::Facts& in, std::vector<SourceCall>& out) {
+  if (!in.called() || !in.calls()) return nullptr;
+  for (const fb::SourceCall* c : *in.calls()) {
+    if (c->row() >= in.called()->size()) return "a call of no known function";
+    const fb::Import& row = *in.called()->Get(c->row());
+    int id = find_shadeop(row.name()->string_view(), row.signature()->string_view());
+    if (id >= 0) out.push_back({static_cast<ShadeopId>(id), c->file(), c->line(), c->column()});
+  }
+  return nullptr;
+}
+
 const char* read_shader(const fb::Shader& in, Program& p) {
   if (in.kind() >= kShaderKindCount) return "no known kind of shader";
   p.kind = static_cast<ShaderKind>(in.kind());
@@ -174,7 +199,9 @@ const char* read_shader(const fb::Shader& in, Program& p) {
              read_strings(f.messages_read()),
              read_strings(f.texture_names()),
              read_strings(f.shadeops()),
-             read_strings(f.plugins())};
+             read_strings(f.plugins()),
+             {}};
+  if (const char* error = read_calls(f, p.facts.calls)) return error;
   for (const fb::Slot* s : *in.slots()) {
     Slot& slot = p.slots.emplace_back();
     slot = {s->name()->str(), Type::kFloat, s->elements(), s->parameter(), s->varying(), s->stored()};
@@ -201,6 +228,10 @@ const char* read_shader(const fb::Shader& in, Program& p) {
   for (const fb::Line* l : *in.lines())
     p.lines.push_back({l->code(), l->file(), l->line(), l->column()});
   p.ir = read_numbers(in.ir());
+  if (in.sources())
+    for (const fb::SourceFile* s : *in.sources())
+      p.sources.push_back({s->name()->str(), s->hash()});
+  if (in.compiler()) p.compiler = in.compiler()->str();
   return nullptr;
 }
 

@@ -34,6 +34,8 @@ public:
       check_array(a);
     for (const LineEntry& l : p_.lines)
       if (l.file >= std::max<size_t>(p_.files.size(), 1)) throw Failure{"a line table entry names no file"};
+    for (const SourceCall& c : p_.facts.calls)
+      if (c.file >= std::max<size_t>(p_.files.size(), 1)) throw Failure{"a call in the source names no file"};
   }
 
 private:

@@ -131,6 +131,28 @@ TEST_F(SlrenderTest, sources_on_the_search_path_are_compiled) {
   EXPECT_THAT(o.text, HasSubstr("error: Surface: \"glow.sl\" does not compile"));
 }
 
+TEST_F(SlrenderTest, sources_that_have_changed_are_compiled_again) {
+  auto with = [](const std::string& name) {
+    return std::string(kScene).insert(std::string(kScene).find("Sphere"), "Surface \"" + name + "\"\n");
+  };
+  file("glow.sl", "surface glow() { Ci = 1; Oi = 1; }\n");
+  file("a.rib", with("glow"));
+  file("b.rib", with("glow.slo"));
+  ASSERT_EQ(std::system(fmt::format("cd '{}' && '{}' -q glow.sl", directory_.string(), SLC_PROGRAM).c_str()),
+            0);
+  EXPECT_EQ(run("a.rib").text, "");
+  file("glow.sl", "surface glow() { Ci = 1; Oi = oops; }\n"); // seen, because it is compiled
+  Outcome o = run("a.rib");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.text,
+              HasSubstr("slrender: warning: glow.slo is older than its source: glow.sl has changed; the "
+                        "source is taken\n"));
+  EXPECT_THAT(o.text, HasSubstr("unknown variable 'oops'"));
+  o = run("b.rib"); // asked for as a file
+  EXPECT_EQ(o.status, 0);
+  EXPECT_THAT(o.text, HasSubstr("compile it again with slc\n"));
+}
+
 TEST_F(SlrenderTest, standard_shaders_are_found_without_a_search_path) {
   file("a.rib", std::string(kScene).insert(std::string(kScene).find("Sphere"),
                                            "LightSource \"ambientlight\" 1 Surface \"plastic\" \"Ks\" .5\n"));

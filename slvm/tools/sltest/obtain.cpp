@@ -1,8 +1,11 @@
 #include "slvm/tools/sltest/obtain.h"
 
+#include "slvm/format/stale.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace slvm::sltest {
 namespace {
@@ -33,6 +36,29 @@ ShaderPtr obtain_expression(const Setup& setup, const ShaderRef& ref, std::span<
   return compile_code(library, ref.text, all, options, error);
 }
 
+/// A file. Where a .slo found by name proves older than its source, the source is taken, as for a shader
+/// without .slo; one that was asked for as a file is run as it is.
+ShaderPtr obtain_file(const Setup& setup, const std::string& name, ShaderLibrary& library, CompileMode mode,
+                      ShaderError& error) {
+  ShaderPtr shader = library.find(name, mode, setup.path, error);
+  const std::string file = find_shader_file(name, setup.path);
+  if (!shader || !file.ends_with(".slo")) return shader;
+  std::vector<SourceCheck> sources = check_sources(shader->program, file);
+  auto changed = [](const SourceCheck& s) { return s.state == SourceState::kChanged; };
+  if (std::none_of(sources.begin(), sources.end(), changed)) return shader;
+  ShaderPtr fresh;
+  if (!name.ends_with(".slo")) {
+    fresh =
+        library.find(std::filesystem::absolute(sources.front().path).string(), mode, setup.path, error);
+    if (!fresh) return nullptr;
+    if (fresh->program.name != shader->program.name) fresh = nullptr;
+  }
+  CompiledShader told = fresh ? *fresh : *shader;
+  told.warnings.insert(
+      0, fmt::format("sltest: warning: {}\n", stale_warning(shader->program, file, fresh != nullptr)));
+  return std::make_shared<const CompiledShader>(std::move(told));
+}
+
 } // namespace
 
 ShaderPtr obtain(const Setup& setup, const ShaderRef& ref, std::span<const Formal> formals,
@@ -40,7 +66,7 @@ ShaderPtr obtain(const Setup& setup, const ShaderRef& ref, std::span<const Forma
   ShaderError why;
   ShaderPtr shader;
   if (ref.form == ShaderForm::kFile) {
-    shader = library.find(ref.text, mode, setup.path, why);
+    shader = obtain_file(setup, ref.text, library, mode, why);
   } else if (ref.form == ShaderForm::kSource) {
     std::string source = fmt::format("#line {} \"{}\"\n", text_line(ref), ref.where.file);
     if (ref.text.find('\n') == std::string::npos) source.append(std::max(ref.where.column, 1u) - 1, ' ');

@@ -30,7 +30,17 @@ Program full_program() {
   names.default_known = true;
   names.default_value = {Type::kString, 2, {}, {"first", ""}};
   p.params.push_back(names);
-  p.facts = {true, false, true, false, {"surface:depth"}, {"wood.tex"}, {"convert"}, {}};
+  p.facts = {true,
+             false,
+             true,
+             false,
+             {"surface:depth"},
+             {"wood.tex"},
+             {"convert"},
+             {},
+             {{3, 0, 12, 7}, {0, 0, 14, 1}, {3, 0, 15, 2}}};
+  p.sources = {{"scale.sl", 1}, {"inc/noise.h", 0xfedcba9876543210ull}};
+  p.compiler = "slc (Anemone) 0.1.0";
   return p;
 }
 
