@@ -1,11 +1,11 @@
-// Descriptions of compiled shaders, as sloinfo prints them: the layout that scripts of the field parse, and
-// JSON.
+// Descriptions of compiled shaders as text: the layout that scripts of the field parse, and listings of what
+// a shader uses and of its code. JSON: shader_json.h.
 #pragma once
 
-#include "slvm/format/program.h"
+#include "slc/tools/inspected.h"
 
-#include <span>
 #include <string>
+#include <string_view>
 
 namespace slc {
 
@@ -18,13 +18,38 @@ namespace slc {
 /// Only the parameter `only`, if it is not empty.
 std::string shader_as_text(const slvm::Program& program, const std::string& only);
 
-/// The schema of docs/sloinfo-schema.md.
-std::string shaders_as_json(std::span<const slvm::Program> programs, const std::string& only);
-
 /// Plug-ins called, one path a line.
 std::string plugins_as_text(const slvm::Program& program);
 
 /// `<shader name="..."><meta id="...">...</meta></shader>`.
 std::string annotations_as_xml(const slvm::Program& program);
+
+/// What --messages, --uses and the others ask for instead of the parameters.
+struct Listings {
+  bool messages = false, uses = false, sources = false, source_map = false, disassembly = false;
+  bool any() const { return messages || uses || sources || source_map || disassembly; }
+};
+
+/// Kind and name, then the listings asked for.
+std::string listings_as_text(const Inspected& shader, const Listings& listings);
+
+// Parts of these, which have a file each.
+std::string messages_as_text(const Inspected& shader);
+std::string uses_as_text(const Inspected& shader);
+std::string sources_as_text(const Inspected& shader);
+std::string source_map_as_text(const Inspected& shader);
+
+/// `surface "plastic"` and a line end.
+std::string heading(const slvm::Program& program);
+/// A string as the language writes it.
+std::string in_quotes(std::string_view text);
+/// "output parameter varying color[2]".
+std::string declaration(const slvm::Param& param);
+/// The default as the language writes it, with its space; "[unknown]" when it is not a constant.
+std::string default_text(const slvm::Param& param);
+/// The space a default is given in; "" for types without one.
+std::string space_of(const slvm::Param& param);
+/// "unchanged", "changed" or "not found".
+std::string_view state_name(slvm::SourceState state);
 
 } // namespace slc

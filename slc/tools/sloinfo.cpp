@@ -1,7 +1,7 @@
 // sloinfo: what a compiled shader is and takes. Arguments, finding files, exit statuses; the output formats
 // are in shader_description.h. Read main() first, at the end.
 #include "slc/compiler.h"
-#include "slc/tools/shader_description.h"
+#include "slc/tools/shader_json.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
 
@@ -22,6 +22,8 @@ constexpr const char* kFooter = R"(
 EXAMPLES
   sloinfo plastic                     the shader plastic.slo or plastic.sl on the search path
   sloinfo --param Kd shaders/*.slo    one parameter of many shaders
+  sloinfo --uses --messages plastic   textures, lights, coordinate systems...; messages to other shaders
+  sloinfo --disassemble plastic.sl    the code, with the lines of the source it was made from
   sloinfo --json plastic.sl           for programs; docs/sloinfo-schema.md describes the form
 
 EXIT STATUS
@@ -31,6 +33,7 @@ struct Options {
   std::vector<std::string> inputs;
   std::string path, param;
   bool plugins = false, metadata = false, json = false;
+  slc::Listings listings;
 };
 
 fs::path program_folder() {
@@ -73,10 +76,10 @@ public:
       describe(input);
     std::string out;
     if (options_.json)
-      out = slc::shaders_as_json(programs_, options_.param);
+      out = slc::shaders_as_json(shaders_, options_.param, options_.listings);
     else
-      for (const slvm::Program& program : programs_)
-        out += text_of(program);
+      for (const slc::Inspected& shader : shaders_)
+        out += text_of(shader);
     std::fwrite(out.data(), 1, out.size(), stdout);
     return worst_;
   }
@@ -87,10 +90,11 @@ private:
     worst_ = std::max(worst_, code);
   }
 
-  std::string text_of(const slvm::Program& program) const {
-    if (options_.plugins) return slc::plugins_as_text(program);
-    if (options_.metadata) return slc::annotations_as_xml(program);
-    return slc::shader_as_text(program, options_.param);
+  std::string text_of(const slc::Inspected& shader) const {
+    if (options_.plugins) return slc::plugins_as_text(shader.program);
+    if (options_.metadata) return slc::annotations_as_xml(shader.program);
+    if (options_.listings.any()) return slc::listings_as_text(shader, options_.listings);
+    return slc::shader_as_text(shader.program, options_.param);
   }
 
   void describe(const std::string& input) {
@@ -102,7 +106,9 @@ private:
       return compile(file.string(), std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
     auto program = slvm::read_slo(*bytes);
     if (!program) return fail(kBadInput, fmt::format("sloinfo: {}: {}", file.string(), program.error()));
-    add(std::move(*program));
+    if (std::string warning = slvm::stale_warning(*program, file.string()); !warning.empty())
+      fmt::print(stderr, "sloinfo: warning: {}\n", warning);
+    add(std::move(*program), file.string());
   }
 
   void compile(const std::string& name, std::string source) {
@@ -118,10 +124,10 @@ private:
     if (shaders.empty())
       return fail(kBadInput, fmt::format("sloinfo: {}: there is no shader in this file", name));
     for (slc::CompiledShader& shader : shaders)
-      add(std::move(shader.program));
+      add(std::move(shader.program), name);
   }
 
-  void add(slvm::Program program) {
+  void add(slvm::Program program, const std::string& file) {
     if (!options_.param.empty()) {
       std::vector<std::string_view> names;
       for (const slvm::Param& p : program.params)
@@ -134,14 +140,16 @@ private:
         return fail(kBadInput, text);
       }
     }
-    programs_.push_back(std::move(program));
+    auto shader = slc::inspect(std::move(program), file);
+    if (!shader) return fail(kBadInput, fmt::format("sloinfo: {}: {}", file, shader.error()));
+    shaders_.push_back(std::move(*shader));
   }
 
   const Options& options_;
   std::vector<fs::path> folders_;
   slc::Compiler compiler_;
   std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_ = slvm::make_kernel_evaluator();
-  std::vector<slvm::Program> programs_;
+  std::vector<slc::Inspected> shaders_;
   int worst_ = kFine;
 };
 
@@ -152,10 +160,25 @@ int run(int argc, char** argv) {
       ->required();
   auto* plugins = app.add_flag("-p", options.plugins, "Print the plug-ins the shader calls, one path a line");
   auto* metadata = app.add_flag("-m", options.metadata, "Print the shader's annotations as XML");
-  auto* json = app.add_flag("--json", options.json, "Print everything as JSON");
+  auto* json = app.add_flag("--json", options.json,
+                            "Print everything but the code as JSON, or what these options ask for: "
+                            "--messages --uses --sources --source-map --disassemble");
   plugins->excludes(metadata)->excludes(json);
   metadata->excludes(json);
-  app.add_option("--param", options.param, "Print only this parameter")->type_name("NAME");
+  auto* param = app.add_option("--param", options.param, "Print only this parameter")->type_name("NAME");
+  slc::Listings& listings = options.listings;
+  const std::tuple<const char*, bool&, const char*> flags[] = {
+      {"--messages", listings.messages, "Print which messages of other shaders are read, and what is output"},
+      {"--uses", listings.uses,
+       "Print functions, textures, rays, lights, derivatives, attributes, spaces and variables, with their "
+       "lines"},
+      {"--sources", listings.sources,
+       "Print the compiler, the source files, and whether they have changed since"},
+      {"--source-map", listings.source_map,
+       "Print which words of the code belong to which line of the source"},
+      {"--disassemble", listings.disassembly, "Print the code between the lines of the source"}};
+  for (auto& [name, flag, text] : flags)
+    app.add_flag(name, flag, text)->excludes(plugins)->excludes(metadata)->excludes(param);
   app.add_option("--path", options.path, "Folders, separated by colons, in which shaders are searched")
       ->type_name("DIRS");
   app.set_version_flag("--version", "sloinfo (Anemone) 0.1.0");

@@ -1,51 +1,11 @@
 // The slc program, as its users run it.
 #include "slc/tools/dependency_file.h"
-#include "tests/unit/slc/front_end.h"
-
-#include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
+#include "tests/unit/slc/tool_fixture.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder of its own for each test, where slc runs.
-class Tool : public testing::Test {
-protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("slc_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void write(const std::string& name, const std::string& text) {
-    fs::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-  }
-  // Exit code; both output streams go to output_.
-  int run(const std::string& arguments) {
-    std::string command = "cd '" + folder_.string() + "' && " + SLC_PROGRAM + " " + arguments + " 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    output_.clear();
-    std::array<char, 4096> buffer;
-    for (size_t n; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-      output_.append(buffer.data(), n);
-    return WEXITSTATUS(pclose(pipe));
-  }
-  bool exists(const std::string& name) { return fs::exists(folder_ / name); }
-  std::string read(const std::string& name) {
-    return slc::read_file((folder_ / name).string()).value_or("none");
-  }
-
-  fs::path folder_;
-  std::string output_;
-};
+using slc_test::Tool;
 
 TEST_F(Tool, output_is_named_after_the_shader) {
   write("x.sl", "surface plastic() { Ci = 1; } surface metal() { Ci = 2; }");

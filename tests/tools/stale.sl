@@ -1,0 +1,4 @@
+/* What stale.slo is made from in a folder where another stale.sl lies. */
+surface stale() {
+  Ci = 2;
+}
