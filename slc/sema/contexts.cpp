@@ -8,7 +8,9 @@
 #include "slc/sema/contexts.h"
 
 #include "slc/diag/messages.h"
+#include "slc/sema/reasons.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
@@ -19,22 +21,46 @@ namespace {
 
 // How much a value varies, as bits to be or-ed. kSomewhere: only because a declared uniform was set at some
 // points and not at others; what is declared uniform may take that, and varies likewise. kVarying: by itself.
-enum Variation : unsigned { kUniform = 0, kSomewhere = 1, kVarying = 3 };
+enum Degree : unsigned { kUniform = 0, kSomewhere = 1, kVarying = 3 };
+
+// How much a value varies, and the first thing that makes it.
+struct Variation {
+  unsigned degree = kUniform;
+  Reason why;
+
+  explicit operator bool() const { return degree != kUniform; }
+  Variation& operator|=(const Variation& more) {
+    if (degree < more.degree) why = more.why;
+    degree |= more.degree;
+    return *this;
+  }
+  friend Variation operator|(Variation a, const Variation& b) { return a |= b; }
+};
 
 // A variable in one expansion of the function it belongs to.
 struct VarState {
   const Variable* declared = nullptr;
   unsigned variation = kUniform;
+  CausePtr cause;         // once it varies
   int hard = 0, soft = 0; // control around the declaration
+};
+
+// An output formal: another name of the variable it is called with.
+struct Alias {
+  const VarState* state = nullptr;
+  std::string_view actual;
+  SourceRange where; // in the call
 };
 
 // One expansion of a function, or the shader itself. Kept between rounds.
 struct Instance {
   std::map<const Variable*, VarState> variables;
   std::map<const CallExpr*, std::unique_ptr<Instance>> calls;
-  std::set<const Stmt*> soft_loops; // loops some lanes leave earlier than others
-  bool soft_rest = false;           // some lanes have returned already
+  std::map<const Variable*, Alias> aliases;
+  std::map<const Stmt*, CausePtr> soft_loops; // loops some lanes leave earlier than others
+  CausePtr soft_rest;                         // some lanes have returned already
   unsigned result = kUniform;
+  CausePtr result_cause;
 };
 
 // What was reported where: one function may be expanded in many places.
@@ -68,6 +94,9 @@ public:
     if (!gave_up_) walk_shader();
   }
 
+  /// After run(): what is known of the variables of this name, each answer once, in source order.
+  std::vector<std::vector<slvm::Note>> explain(std::string_view name) const;
+
 private:
   struct Loop {
     const Stmt* statement;
@@ -90,33 +119,82 @@ private:
   void illuminance(IlluminanceStmt& s);
   void emission(EmissionStmt& s);
   void gather(GatherStmt& s);
+  void need_uniform(Expr* e, std::string_view name, std::string_view callee);
   void loop_body(const Stmt& loop, Stmt* body);
 
-  unsigned value(Expr* e);
-  unsigned value_here(Expr& e);
-  unsigned values(std::vector<ExprPtr>& list);
-  unsigned call(CallExpr& e);
-  unsigned inlined(CallExpr& e);
-  unsigned row_call(CallExpr& e);
-  unsigned tokens(std::vector<TokenArg>& list, unsigned output);
-  unsigned assign(AssignExpr& e);
-  unsigned read(const Variable* v, SourceRange where);
-  void store(Expr& place, unsigned variation, SourceRange where);
-  void store_variable(VarState& state, unsigned variation, SourceRange where, std::string_view name);
+  Variation value(Expr* e);
+  Variation value_here(Expr& e);
+  Variation values(std::vector<ExprPtr>& list);
+  Variation call(CallExpr& e);
+  Variation inlined(CallExpr& e);
+  Variation row_call(CallExpr& e);
+  Variation tokens(std::vector<TokenArg>& list, const Variation& output);
+  Variation assign(AssignExpr& e);
+  Variation read(const Variable* v, SourceRange where);
+  void store(Expr& place, Variation variation, SourceRange where);
+  void store_variable(VarState& state, const Variation& variation, SourceRange where, std::string_view name);
   static bool draws_once(const Expr* value, const Variable& target);
 
   VarState& state(const Variable& v);
-  void mark(bool& flag) { changed_ |= !std::exchange(flag, true); }
-  void mark(unsigned& variation, unsigned more) {
-    changed_ |= std::exchange(variation, variation | more) != variation;
+  /// Makes something vary as much as `more`, too; the first cause stays.
+  void mark(unsigned& degree, CausePtr& cause, unsigned more, const Cause& why) {
+    if (more && !cause) cause = std::make_shared<const Cause>(why);
+    changed_ |= std::exchange(degree, degree | more) != degree;
   }
+  void mark(CausePtr& flag, const CausePtr& why) {
+    changed_ |= !flag;
+    if (!flag) flag = why;
+  }
+  /// Control that some lanes only are under, as long as the object lives; none without cause.
+  class Around {
+  public:
+    Around(ContextWalk& walk, int& counter, CausePtr cause) : walk_(walk), counter_(counter) {
+      if (!cause) return;
+      entered_ = true;
+      ++counter_;
+      walk_.controls_.push_back(std::move(cause));
+    }
+    ~Around() {
+      if (!entered_) return;
+      --counter_;
+      walk_.controls_.pop_back();
+    }
+    Around(const Around&) = delete;
+    Around& operator=(const Around&) = delete;
+
+  private:
+    ContextWalk& walk_;
+    int& counter_;
+    bool entered_ = false;
+  };
+  static CausePtr condition(const Variation& v, SourceRange where) {
+    if (!v) return nullptr;
+    return std::make_shared<const Cause>(Cause{Cause::kCondition, where, "", v.why, nullptr});
+  }
+  static CausePtr around(Cause::Kind kind, SourceRange where) {
+    return std::make_shared<const Cause>(Cause{kind, where, "", {}, nullptr});
+  }
+  /// The outermost varying control inside of what there is `outside` of.
+  CausePtr control_from(int outside) const { return controls_[static_cast<size_t>(outside)]; }
+  CausePtr early(const Stmt& loop) {
+    auto it = here().soft_loops.find(&loop);
+    return it == here().soft_loops.end() ? nullptr : it->second;
+  }
+  void explain(const Instance& instance, std::string_view name,
+               std::vector<std::vector<slvm::Note>>& answers) const;
   int control() const { return hard_ + soft_; }
   Instance& here() { return *frame_.instance; }
   void check_global(const Variable& v, bool store, SourceRange where);
   void check_row_place(const CallExpr& e, uint32_t flags);
   template <class... Args> void complain(Msg id, SourceRange where, const Args&... args) {
-    if (reporting_ && reported_.insert({where.file, where.line, where.column, id}).second)
-      report(diags_, id, where, args...);
+    complain_of(Reason(), id, where, args...);
+  }
+  /// With the nearest step to what makes the value vary as a note.
+  template <class... Args>
+  void complain_of(const Reason& why, Msg id, SourceRange where, const Args&... args) {
+    if (!reporting_ || !reported_.insert({where.file, where.line, where.column, id}).second) return;
+    slvm::Diagnostic& d = report(diags_, id, where, args...);
+    if (std::vector<slvm::Note> notes = steps(why); !notes.empty()) d.notes.push_back(notes.front());
   }
 
   Shader& shader_;
@@ -128,8 +206,9 @@ private:
   std::set<const FunctionDef*> open_functions_; // being expanded
   size_t expansions_ = 0;
   int hard_ = 0, soft_ = 0;
+  std::vector<CausePtr> controls_;     // hard_ + soft_ of them, outermost first
   int illuminance_ = 0, emission_ = 0; // loops around this point, callers' included
-  unsigned old_value_ = kUniform;      // of the target of a compound assignment
+  Variation old_value_;                // of the target of a compound assignment
   bool changed_ = false, reporting_ = false, gave_up_ = false;
 };
 
@@ -137,10 +216,12 @@ void ContextWalk::walk_shader() {
   frame_ = {&root_, nullptr, 0, {}};
   bound_.clear();
   hard_ = soft_ = illuminance_ = emission_ = 0;
+  controls_.clear();
   for (Variable* v : shader_.params) {
     VarState& s = state(*v);
-    if (value(v->init.get()) && s.variation == kUniform && !draws_once(v->init.get(), *v))
-      complain(Msg::kVaryingToUniform, v->init->range, v->name);
+    Variation initial = value(v->init.get());
+    if (initial && s.variation == kUniform && !draws_once(v->init.get(), *v))
+      complain_of(initial.why, Msg::kVaryingToUniform, v->init->range, v->name);
   }
   statement(shader_.body.get());
 }
@@ -150,7 +231,10 @@ VarState& ContextWalk::state(const Variable& v) {
   VarState& s = here().variables[&v];
   if (!s.declared) {
     s.declared = &v;
-    s.variation = v.detail_given && v.detail == Detail::kVarying ? kVarying : kUniform;
+    if (v.detail_given && v.detail == Detail::kVarying) {
+      s.variation = kVarying;
+      s.cause = std::make_shared<const Cause>(Cause{Cause::kDeclared, v.where, v.name, {}, nullptr});
+    }
   }
   bound_[&v] = &s;
   return s;
@@ -158,8 +242,7 @@ VarState& ContextWalk::state(const Variable& v) {
 
 void ContextWalk::statement(Stmt* s) {
   if (!s || gave_up_) return;
-  int rest = here().soft_rest ? 1 : 0; // lanes that returned take no part in what follows
-  soft_ += rest;
+  Around rest(*this, soft_, here().soft_rest); // lanes that returned take no part in what follows
   switch (s->kind) {
   case StmtKind::kEmpty:
   case StmtKind::kFunction: break;
@@ -175,11 +258,9 @@ void ContextWalk::statement(Stmt* s) {
   case StmtKind::kExpression: values(as<ExpressionStmt>(s)->expressions); break;
   case StmtKind::kIf: {
     auto& branch = *as<IfStmt>(s);
-    int varying = value(branch.condition.get()) ? 1 : 0;
-    hard_ += varying;
+    Around varying(*this, hard_, condition(value(branch.condition.get()), branch.condition->range));
     statement(branch.then_branch.get());
     statement(branch.else_branch.get());
-    hard_ -= varying;
     break;
   }
   case StmtKind::kLoop: loop(*as<LoopStmt>(s)); break;
@@ -189,7 +270,6 @@ void ContextWalk::statement(Stmt* s) {
   case StmtKind::kEmission: emission(*as<EmissionStmt>(s)); break;
   case StmtKind::kGather: gather(*as<GatherStmt>(s)); break;
   }
-  soft_ -= rest;
 }
 
 void ContextWalk::declare(Variable& v) {
@@ -201,58 +281,65 @@ void ContextWalk::declare(Variable& v) {
 
 void ContextWalk::loop_body(const Stmt& loop_stmt, Stmt* body) {
   frame_.loops.push_back({&loop_stmt, control()});
-  int early = here().soft_loops.contains(&loop_stmt) ? 1 : 0;
-  soft_ += early;
-  statement(body);
-  soft_ -= early;
+  {
+    Around left(*this, soft_, early(loop_stmt));
+    statement(body);
+  }
   frame_.loops.pop_back();
 }
 
 void ContextWalk::loop(LoopStmt& s) {
   statement(s.init.get());
-  int varying = value(s.condition.get()) ? 1 : 0;
-  hard_ += varying;
+  Around varying(*this, hard_,
+                 condition(value(s.condition.get()), s.condition ? s.condition->range : s.range));
   loop_body(s, s.body.get());
-  int early = here().soft_loops.contains(&s) ? 1 : 0;
-  soft_ += early;
+  Around left(*this, soft_, early(s));
   values(s.steps);
-  soft_ -= early;
-  hard_ -= varying;
 }
 
 void ContextWalk::jump(const JumpStmt& s) {
   for (size_t i = frame_.loops.size(), n = static_cast<size_t>(s.levels); i-- > 0 && n-- > 0;) {
     const Loop& left = frame_.loops[i];
-    if (control() > left.control && here().soft_loops.insert(left.statement).second) changed_ = true;
+    if (control() <= left.control) continue;
+    mark(here().soft_loops[left.statement],
+         std::make_shared<const Cause>(Cause{Cause::kLoopLeft, s.range, "", {}, control_from(left.control)}));
   }
 }
 
 void ContextWalk::leave(ReturnStmt& s) {
   bool uniform_function = frame_.function && frame_.function->result_uniform;
-  unsigned variation = uniform_function && is_random(s.value.get()) ? kUniform : value(s.value.get());
+  Variation variation;
+  if (!uniform_function || !is_random(s.value.get())) variation = value(s.value.get());
   bool some_lanes = control() > frame_.control; // only
-  mark(here().result, some_lanes ? kVarying : variation);
-  if (uniform_function && variation == kVarying)
-    complain(Msg::kVaryingResult, s.value->range, frame_.function->name);
+  CausePtr outermost = some_lanes ? control_from(frame_.control) : nullptr;
+  std::string_view name = frame_.function ? std::string_view(frame_.function->name) : "";
+  if (variation.degree == kVarying)
+    mark(here().result, here().result_cause, kVarying,
+         {Cause::kReturned, s.value->range, name, variation.why, nullptr});
+  else
+    mark(here().result, here().result_cause, some_lanes ? kVarying : variation.degree,
+         {Cause::kReturnedUnder, s.range, name, {}, outermost});
+  if (uniform_function && variation.degree == kVarying)
+    complain_of(variation.why, Msg::kVaryingResult, s.value->range, name);
   if (!some_lanes) return;
-  mark(here().soft_rest);
+  auto cause = std::make_shared<const Cause>(Cause{Cause::kReturnedFrom, s.range, "", {}, outermost});
+  mark(here().soft_rest, cause);
   for (const Loop& left : frame_.loops)
-    if (here().soft_loops.insert(left.statement).second) changed_ = true;
+    mark(here().soft_loops[left.statement], cause);
 }
 
 void ContextWalk::illuminance(IlluminanceStmt& s) {
   if (shader_.kind == ShaderKind::kLight || shader_.kind == ShaderKind::kImager)
     complain(Msg::kIlluminancePlace, s.range, slvm::shader_kind_name(shader_.kind));
   if (illuminance_ > 0) complain(Msg::kNestedLightLoop, s.range, "illuminance", "illuminance");
-  if (value(s.category.get())) complain(Msg::kNeedsUniform, s.category->range, "category", "illuminance");
+  need_uniform(s.category.get(), "category", "illuminance");
   value(s.position.get());
   value(s.axis.get());
   value(s.angle.get());
-  tokens(s.tokens, kVarying);
+  tokens(s.tokens, {kVarying, {Reason::kBuiltin, s.range, "illuminance", nullptr}});
   ++illuminance_;
-  ++soft_;
+  Around lights(*this, soft_, around(Cause::kLights, s.range));
   loop_body(s, s.body.get());
-  --soft_;
   --illuminance_;
 }
 
@@ -265,66 +352,65 @@ void ContextWalk::emission(EmissionStmt& s) {
   value(s.axis.get());
   value(s.angle.get());
   ++emission_;
-  ++soft_;
+  Around light(*this, soft_, around(Cause::kLights, s.range));
   statement(s.body.get());
-  --soft_;
   --emission_;
 }
 
 void ContextWalk::gather(GatherStmt& s) {
   std::string_view name = s.is_traverse ? "traverse" : "gather";
-  if (value(s.category.get())) complain(Msg::kNeedsUniform, s.category->range, "category", name);
+  need_uniform(s.category.get(), "category", name);
   for (ExprPtr* e : {&s.position, &s.direction, &s.angle, &s.samples})
     value(e->get());
-  ++hard_;
-  tokens(s.tokens, kVarying);
+  Around rays(*this, hard_, around(Cause::kRays, s.range));
+  tokens(s.tokens, {kVarying, {Reason::kBuiltin, s.range, name, nullptr}});
   loop_body(s, s.body.get());
   loop_body(s, s.else_body.get());
-  --hard_;
 }
 
-unsigned ContextWalk::values(std::vector<ExprPtr>& list) {
-  unsigned variation = kUniform;
+void ContextWalk::need_uniform(Expr* e, std::string_view name, std::string_view callee) {
+  if (Variation v = value(e)) complain_of(v.why, Msg::kNeedsUniform, e->range, name, callee);
+}
+
+Variation ContextWalk::values(std::vector<ExprPtr>& list) {
+  Variation variation;
   for (ExprPtr& e : list)
     variation |= value(e.get());
   return variation;
 }
 
 // How much the value varies; notes it in the node.
-unsigned ContextWalk::value(Expr* e) {
-  if (!e || gave_up_) return kUniform;
-  unsigned variation = value_here(*e);
+Variation ContextWalk::value(Expr* e) {
+  if (!e || gave_up_) return {};
+  Variation variation = value_here(*e);
   if (variation) e->detail = Detail::kVarying;
   return variation;
 }
 
-unsigned ContextWalk::value_here(Expr& e) {
+Variation ContextWalk::value_here(Expr& e) {
   switch (e.kind) {
   case ExprKind::kNumber:
-  case ExprKind::kString: return kUniform;
+  case ExprKind::kString: return {};
   case ExprKind::kVariable: return read(as<VariableExpr>(&e)->variable, e.range);
   case ExprKind::kIndex: {
-    unsigned index = value(as<IndexExpr>(&e)->index.get());
+    Variation index = value(as<IndexExpr>(&e)->index.get());
     return read(as<IndexExpr>(&e)->variable, e.range) | index;
   }
   case ExprKind::kTuple: return values(as<TupleExpr>(&e)->elements);
   case ExprKind::kArrayInit: return values(as<ArrayInitExpr>(&e)->elements);
   case ExprKind::kOperator: return values(as<OperatorExpr>(&e)->operands);
   case ExprKind::kLogical: {
-    unsigned left = value(as<LogicalExpr>(&e)->left.get());
-    hard_ += left ? 1 : 0;
-    unsigned right = value(as<LogicalExpr>(&e)->right.get());
-    hard_ -= left ? 1 : 0;
-    return left | right;
+    auto& l = *as<LogicalExpr>(&e);
+    Variation left = value(l.left.get());
+    Around varying(*this, hard_, condition(left, l.left->range));
+    return left | value(l.right.get());
   }
   case ExprKind::kConditional: {
     auto& c = *as<ConditionalExpr>(&e);
-    unsigned condition = value(c.condition.get());
-    hard_ += condition ? 1 : 0;
-    unsigned sides = value(c.then_value.get());
-    sides |= value(c.else_value.get());
-    hard_ -= condition ? 1 : 0;
-    return condition | sides;
+    Variation chosen = value(c.condition.get());
+    Around varying(*this, hard_, condition(chosen, c.condition->range));
+    chosen |= value(c.then_value.get());
+    return chosen | value(c.else_value.get());
   }
   case ExprKind::kConvert: return value(as<ConvertExpr>(&e)->operand.get());
   case ExprKind::kCast: return value(as<CastExpr>(&e)->operand.get());
@@ -332,14 +418,18 @@ unsigned ContextWalk::value_here(Expr& e) {
   case ExprKind::kAssign: return assign(*as<AssignExpr>(&e));
   case ExprKind::kTargetValue: return old_value_;
   }
-  return kVarying;
+  return {kVarying, {}};
 }
 
-unsigned ContextWalk::read(const Variable* v, SourceRange where) {
-  if (!v) return kUniform;
-  if (v->kind != VariableKind::kGlobal) return state(*v).variation;
+Variation ContextWalk::read(const Variable* v, SourceRange where) {
+  if (!v) return {};
+  if (v->kind != VariableKind::kGlobal) {
+    const VarState& s = state(*v);
+    return {s.variation, {Reason::kVariable, where, v->name, s.cause}};
+  }
   check_global(*v, false, where);
-  return v->detail == Detail::kVarying ? kVarying : kUniform;
+  if (v->detail == Detail::kUniform) return {};
+  return {kVarying, {Reason::kGlobal, where, v->name, nullptr}};
 }
 
 void ContextWalk::check_global(const Variable& v, bool store, SourceRange where) {
@@ -363,18 +453,22 @@ void ContextWalk::check_global(const Variable& v, bool store, SourceRange where)
   }
 }
 
-void ContextWalk::store_variable(VarState& s, unsigned variation, SourceRange where, std::string_view name) {
+void ContextWalk::store_variable(VarState& s, const Variation& variation, SourceRange where,
+                                 std::string_view name) {
   const Variable& v = *s.declared;
   bool some_points = control() > s.hard + s.soft; // only
-  if (!always_uniform(v)) return mark(s.variation, some_points ? kVarying : variation);
-  if (hard_ > s.hard) complain(Msg::kUniformUnderVarying, where, name);
-  if (variation == kVarying && !some_points && s.variation == kUniform)
-    complain(Msg::kVaryingToUniform, where, name);
-  else if ((some_points && v.type != Type::kString) || variation == kSomewhere)
-    mark(s.variation, kSomewhere);
+  CausePtr outermost = some_points ? control_from(s.hard + s.soft) : nullptr;
+  Cause cause{Cause::kSet, where, name, variation.why, nullptr};
+  if (some_points && variation.degree != kVarying) cause = {Cause::kSetUnder, where, name, {}, outermost};
+  if (!always_uniform(v)) return mark(s.variation, s.cause, some_points ? kVarying : variation.degree, cause);
+  if (hard_ > s.hard) complain_of({Reason::kNone, {}, "", outermost}, Msg::kUniformUnderVarying, where, name);
+  if (variation.degree == kVarying && !some_points && s.variation == kUniform)
+    complain_of(variation.why, Msg::kVaryingToUniform, where, name);
+  else if ((some_points && v.type != Type::kString) || variation.degree == kSomewhere)
+    mark(s.variation, s.cause, kSomewhere, cause);
 }
 
-void ContextWalk::store(Expr& place, unsigned variation, SourceRange where) {
+void ContextWalk::store(Expr& place, Variation variation, SourceRange where) {
   const Variable* v = nullptr;
   if (auto* name = as<VariableExpr>(&place)) v = name->variable;
   if (auto* element = as<IndexExpr>(&place)) {
@@ -384,7 +478,8 @@ void ContextWalk::store(Expr& place, unsigned variation, SourceRange where) {
   if (!v) return;
   if (v->kind == VariableKind::kGlobal) {
     check_global(*v, true, where);
-    if (v->detail == Detail::kUniform && variation) complain(Msg::kVaryingToUniform, where, v->name);
+    if (v->detail == Detail::kUniform && variation)
+      complain_of(variation.why, Msg::kVaryingToUniform, where, v->name);
     return;
   }
   store_variable(state(*v), variation, where, v->name);
@@ -396,43 +491,44 @@ bool ContextWalk::draws_once(const Expr* e, const Variable& target) {
   return always_uniform(target) && is_random(e);
 }
 
-unsigned ContextWalk::assign(AssignExpr& e) {
+Variation ContextWalk::assign(AssignExpr& e) {
   const Variable* v = nullptr;
   if (auto* name = as<VariableExpr>(e.target.get())) v = name->variable;
   if (auto* element = as<IndexExpr>(e.target.get())) v = element->variable;
   if (v && draws_once(e.value.get(), *v)) {
-    store(*e.target, kUniform, e.target->range);
-    return kUniform;
+    store(*e.target, {}, e.target->range);
+    return {};
   }
-  unsigned outer = old_value_;
+  Variation outer = old_value_;
   if (e.compound) old_value_ = value(e.target.get());
-  unsigned variation = value(e.value.get());
-  old_value_ = outer;
+  Variation variation = value(e.value.get());
+  old_value_ = std::move(outer);
   store(*e.target, variation, e.value->range);
   return variation;
 }
 
-unsigned ContextWalk::call(CallExpr& e) {
+Variation ContextWalk::call(CallExpr& e) {
   bool rsl_body = e.shadeop != kNoShadeop;
   if (e.function && !rsl_body) return inlined(e);
   if (rsl_body) return row_call(e);
   return values(e.args);
 }
 
-unsigned ContextWalk::row_call(CallExpr& e) {
+Variation ContextWalk::row_call(CallExpr& e) {
   const slvm::ShadeopInfo& info = slvm::shadeop(e.shadeop);
   const slvm::Signature& signature = info.signature;
   check_row_place(e, info.flags);
-  unsigned variation = info.flags & slvm::kHiddenVarying ? kVarying : kUniform;
+  Variation variation;
+  if (info.flags & slvm::kHiddenVarying) variation = {kVarying, {Reason::kBuiltin, e.range, e.name, nullptr}};
   auto param = [&](size_t i) -> const slvm::SignatureParam& { return signature.param(static_cast<int>(i)); };
   // Surplus formals of an RSL body take token-value pairs.
   size_t count =
       signature.variadic() ? e.args.size() : std::min<size_t>(e.args.size(), signature.param_count);
   for (size_t i = 0; i < e.args.size(); ++i) {
     if (i < count && param(i).output && !param(i).input) continue;
-    unsigned arg = value(e.args[i].get());
+    Variation arg = value(e.args[i].get());
     if (arg && i < count && param(i).uniform)
-      complain(Msg::kNeedsUniform, e.args[i]->range, param(i).name, e.name);
+      complain_of(arg.why, Msg::kNeedsUniform, e.args[i]->range, param(i).name, e.name);
     bool message = i < count && param(i).output && param(i).any;
     if (!message) variation |= arg;
   }
@@ -442,11 +538,12 @@ unsigned ContextWalk::row_call(CallExpr& e) {
     const auto* place = as<VariableExpr>(e.args[i].get());
     bool uniform_target = param(i).any && place && place->variable &&
                           (always_uniform(*place->variable) || place->variable->type == Type::kString);
-    unsigned brought = uniform_target ? kUniform : param(i).any ? kVarying : variation;
-    store(*e.args[i], brought, e.args[i]->range);
+    Variation brought = variation;
+    if (param(i).any) brought = {kVarying, {Reason::kBuiltin, e.range, e.name, nullptr}};
+    store(*e.args[i], uniform_target ? Variation() : brought, e.args[i]->range);
   }
   variation |= tokens(e.tokens, variation);
-  return signature.uniform_result || signature.result == Type::kVoid ? kUniform : variation;
+  return signature.uniform_result || signature.result == Type::kVoid ? Variation() : variation;
 }
 
 void ContextWalk::check_row_place(const CallExpr& e, uint32_t flags) {
@@ -457,30 +554,31 @@ void ContextWalk::check_row_place(const CallExpr& e, uint32_t flags) {
 }
 
 // How much the inputs among the pairs vary; `output`: how much the outputs do.
-unsigned ContextWalk::tokens(std::vector<TokenArg>& list, unsigned output) {
-  unsigned inputs = kUniform;
+Variation ContextWalk::tokens(std::vector<TokenArg>& list, const Variation& output) {
+  Variation inputs;
   for (TokenArg& t : list) {
-    if (value(t.token.get())) complain(Msg::kNeedsUniform, t.token->range, "token", "token-value pairs");
+    need_uniform(t.token.get(), "token", "token-value pairs");
     if (!t.value) continue;
     if (t.info && t.info->output) {
       store(*t.value, output, t.value->range);
       continue;
     }
-    unsigned input = value(t.value.get());
-    if (input && t.info && t.info->uniform) complain(Msg::kTokenUniform, t.value->range, t.info->name);
+    Variation input = value(t.value.get());
+    if (input && t.info && t.info->uniform)
+      complain_of(input.why, Msg::kTokenUniform, t.value->range, t.info->name);
     inputs |= input;
   }
   return inputs;
 }
 
 // A function of the source, expanded here.
-unsigned ContextWalk::inlined(CallExpr& e) {
+Variation ContextWalk::inlined(CallExpr& e) {
   const FunctionDef& f = *e.function;
-  if (open_functions_.contains(&f)) return kUniform; // recursion: an error already
+  if (open_functions_.contains(&f)) return {}; // recursion: an error already
   if (++expansions_ > kMaxInlinedCalls && !here().calls.contains(&e)) {
     gave_up_ = true;
     report(diags_, Msg::kTooManyCalls, shader_.where, shader_.name, kMaxInlinedCalls);
-    return kVarying;
+    return {kVarying, {}};
   }
   std::unique_ptr<Instance>& slot = here().calls[&e];
   if (!slot) slot = std::make_unique<Instance>();
@@ -489,7 +587,7 @@ unsigned ContextWalk::inlined(CallExpr& e) {
   for (size_t i = 0; i < e.args.size() && i < f.formals.size(); ++i) {
     const Variable& formal = *f.formals[i];
     Expr& arg = *e.args[i];
-    unsigned variation = value(&arg);
+    Variation variation = value(&arg);
     bool given_varying = formal.detail_given && formal.detail == Detail::kVarying;
     VarState* binding = &slot->variables[&formal];
     const auto* name = as<VariableExpr>(&arg);
@@ -499,13 +597,23 @@ unsigned ContextWalk::inlined(CallExpr& e) {
       if (actual->kind == VariableKind::kGlobal) check_global(*actual, true, arg.range);
       binding = &state(*actual);
       if (element && variation) store_variable(*binding, variation, arg.range, actual->name);
-      if (given_varying) store_variable(*binding, kVarying, arg.range, actual->name);
+      if (given_varying) {
+        auto declared =
+            std::make_shared<const Cause>(Cause{Cause::kDeclared, formal.where, formal.name, {}, nullptr});
+        store_variable(*binding, {kVarying, {Reason::kVariable, arg.range, formal.name, declared}}, arg.range,
+                       actual->name);
+      }
+      slot->aliases[&formal] = {binding, actual->name, arg.range};
     } else {
       binding->declared = &formal;
-      if (variation == kVarying && declared_uniform(formal))
-        complain(Msg::kNeedsUniform, arg.range, formal.name, f.name);
+      if (variation.degree == kVarying && declared_uniform(formal))
+        complain_of(variation.why, Msg::kNeedsUniform, arg.range, formal.name, f.name);
+      else if (given_varying)
+        mark(binding->variation, binding->cause, kVarying,
+             {Cause::kDeclared, formal.where, formal.name, {}, nullptr});
       else
-        mark(binding->variation, given_varying ? kVarying : variation);
+        mark(binding->variation, binding->cause, variation.degree,
+             {Cause::kGiven, arg.range, formal.name, variation.why, nullptr});
     }
     bindings.push_back({&formal, binding});
   }
@@ -518,7 +626,52 @@ unsigned ContextWalk::inlined(CallExpr& e) {
   open_functions_.erase(&f);
   bound_ = std::move(outer_bound);
   frame_ = std::move(outer);
-  return slot->result;
+  return {slot->result, {Reason::kFunction, e.range, f.name, slot->result_cause}};
+}
+
+void ContextWalk::explain(const Instance& instance, std::string_view name,
+                          std::vector<std::vector<slvm::Note>>& answers) const {
+  auto tell = [](std::vector<slvm::Note>& answer, const VarState& s, std::string_view as) {
+    const Variable& v = *s.declared;
+    if (v.kind == VariableKind::kGlobal)
+      answer.push_back({{}, fmt::format("'{}' is a predefined variable that varies", v.name)});
+    else if (s.cause)
+      for (slvm::Note& note : steps(*s.cause))
+        answer.push_back(std::move(note));
+    else
+      answer.push_back({v.where, fmt::format("'{}' is uniform", as)});
+  };
+  for (const auto& [v, s] : instance.variables)
+    if (v->name == name && s.declared) tell(answers.emplace_back(), s, name);
+  for (const auto& [v, alias] : instance.aliases) {
+    if (v->name != name) continue;
+    std::vector<slvm::Note>& answer = answers.emplace_back();
+    answer.push_back({alias.where, fmt::format("'{}' is '{}' of the caller here", name, alias.actual)});
+    tell(answer, *alias.state, alias.actual);
+  }
+  for (const auto& [call, inner] : instance.calls)
+    explain(*inner, name, answers);
+}
+
+std::vector<std::vector<slvm::Note>> ContextWalk::explain(std::string_view name) const {
+  std::vector<std::vector<slvm::Note>> answers;
+  explain(root_, name, answers);
+  auto key = [](const std::vector<slvm::Note>& answer) {
+    const SourceRange& r = answer.front().where;
+    return std::tuple(r.file, r.line, r.column);
+  };
+  std::stable_sort(answers.begin(), answers.end(),
+                   [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  auto same = [](const slvm::Note& a, const slvm::Note& b) { return a.where == b.where && a.text == b.text; };
+  auto end = std::unique(answers.begin(), answers.end(), [&](const auto& a, const auto& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+  });
+  answers.erase(end, answers.end());
+  slvm::Global global = slvm::find_global(name);
+  if (!answers.empty() || global == Global::kCount) return answers;
+  bool varies = slvm::global_info(global).detail == Detail::kVarying;
+  return {
+      {{{}, fmt::format("'{}' is a predefined variable that {}", name, varies ? "varies" : "is uniform")}}};
 }
 
 } // namespace
@@ -527,6 +680,14 @@ void check_contexts(TranslationUnit& unit, slvm::Diagnostics& diags) {
   Reported reported;
   for (Shader& shader : unit.shaders)
     ContextWalk(shader, diags, reported).run();
+}
+
+std::vector<std::vector<slvm::Note>> explain_varying(Shader& shader, std::string_view name) {
+  slvm::Diagnostics known; // reported by check_contexts
+  Reported reported;
+  ContextWalk walk(shader, known, reported);
+  walk.run();
+  return walk.explain(name);
 }
 
 } // namespace slc

@@ -5,6 +5,7 @@
 #include "slc/compiler.h"
 #include "slc/tools/dependency_file.h"
 #include "slc/tools/diagnostics_json.h"
+#include "slc/tools/explanation.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/disasm.h"
 #include "slvm/format/slo.h"
@@ -36,6 +37,7 @@ public:
 private:
   std::vector<std::string> input_files();
   int compile_file(const std::string& path);
+  int explain(slc::TranslationUnit& unit, const std::string& file);
   int preprocess_only(slvm::FileId file);
   int generate(const slc::CheckedSource& checked, slvm::FileId file, std::vector<std::string>& written);
   int write_dependencies(const std::string& source, const slc::PreprocessedText& text,
@@ -107,9 +109,27 @@ int Run::compile_file(const std::string& path) {
   int code = diags_.has_errors() ? kBadInput : kFine;
   if (options_.dump == "ast") fmt::print("{}", slc::print_ast(checked.unit));
   std::vector<std::string> written;
+  if (!options_.explain.empty()) {
+    print_diagnostics();
+    return std::max(code, explain(checked.unit, name));
+  }
   if (code == kFine && options_.dump != "ast") code = generate(checked, file, written);
   print_diagnostics();
   if (code == kFine && options_.dependencies) code = write_dependencies(name, checked.text, written);
+  return code;
+}
+
+// Errors do not stand in the way: that a value varies may be one.
+int Run::explain(slc::TranslationUnit& unit, const std::string& file) {
+  int code = kFine;
+  for (const std::string& name : options_.explain) {
+    std::string text = slc::explanation(unit, name, sources_);
+    if (text.empty()) {
+      fmt::print(stderr, "{}", slc::no_such_variable(unit, name, file));
+      code = kBadInput;
+    }
+    fmt::print("{}", text);
+  }
   return code;
 }
 

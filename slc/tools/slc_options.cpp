@@ -111,6 +111,14 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
       ->check(CLI::Range(0, 2));
   app.add_option("--dump", o.dump, "Print a stage instead of writing files: ast, ir or bytecode")
       ->check(CLI::IsMember({"ast", "ir", "bytecode"}));
+  app.add_option(
+         "--explain-varying", o.explain,
+         "Print why the variables of this name are varying, instead of writing files; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->take_all()
+      ->excludes("--dump")
+      ->excludes("-E");
   list("-W", f.warnings, "-Wname, -Wno-name: switch a warning on or off; -Wall, -Werror");
   app.add_flag("--nw", o.diagnostics.no_warnings, "-nw: no warnings");
   app.add_flag("--lint", f.lint,

@@ -20,6 +20,7 @@ struct ToolOptions {
   bool system_dependencies = true;                ///< not -MM, -MMD
   std::string dependency_file, dependency_target; ///< -MF, -MT
   std::string dump;                               ///< ast, ir, bytecode or ""
+  std::vector<std::string> explain;               ///< --explain-varying: names of variables
   bool json = false;                              ///< --diagnostics=json
   bool quiet = false, verbose = false;
 };

@@ -280,6 +280,10 @@ TEST_F(Sloinfo, listings_as_json) {
   ]
 }
 )");
+}
+
+TEST_F(Sloinfo, json_has_everything_but_the_code_or_what_is_asked_for) {
+  write("a.sl", "surface a(output varying float d = 0) {\n  d = length(Du(P));\n}\n");
   EXPECT_EQ(sloinfo("--json a.sl"), 0); // all but the code
   for (const char* key : {"parameters", "annotations", "uses", "shadeops", "texture_names", "plugins",
                           "calls", "textures", "rays", "lights", "derivatives", "queries", "spaces",
