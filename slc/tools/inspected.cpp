@@ -38,7 +38,8 @@ std::string SourceLines::text(uint32_t file, uint32_t line) const {
   return std::string(text);
 }
 
-slvm::Result<Inspected> inspect(slvm::Program program, std::string path) {
+slvm::Result<Inspected> inspect(slvm::Program program, std::string path, bool with_uses) {
+  if (!with_uses || program.ir.empty()) return Inspected{std::move(program), std::move(path), {}};
   auto module = slvm::ir::deserialise(program.ir);
   if (!module) return slvm::Error{"damaged: " + module.error()};
   Uses uses = collect_uses(*module, program.facts.calls);

@@ -35,7 +35,7 @@ struct Inspected {
   }
 };
 
-/// The error is for files whose IR is damaged.
-slvm::Result<Inspected> inspect(slvm::Program program, std::string path);
+/// Without `with_uses` these stay empty, and the IR unread. The error is for files whose IR is damaged.
+slvm::Result<Inspected> inspect(slvm::Program program, std::string path, bool with_uses);
 
 } // namespace slc

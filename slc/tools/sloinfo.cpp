@@ -140,7 +140,9 @@ private:
         return fail(kBadInput, text);
       }
     }
-    auto shader = slc::inspect(std::move(program), file);
+    const slc::Listings& listings = options_.listings;
+    bool uses = listings.uses || listings.messages || (options_.json && !listings.any());
+    auto shader = slc::inspect(std::move(program), file, uses);
     if (!shader) return fail(kBadInput, fmt::format("sloinfo: {}: {}", file, shader.error()));
     shaders_.push_back(std::move(*shader));
   }

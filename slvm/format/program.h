@@ -122,7 +122,7 @@ struct SourceFile {
 /// What introspection tells about a shader beside its parameters.
 struct Facts {
   bool derivatives = false, lights = false, textures = false, rays = false;
-  std::vector<std::string> messages_read; ///< "surface:name", "light:name"...
+  std::vector<std::string> messages_read; ///< "surface:name", "lightsource:name"...
   std::vector<std::string> texture_names; ///< constant ones
   std::vector<std::string> shadeops;      ///< names of the built-ins called, sorted
   std::vector<std::string> plugins;       ///< DSO shadeops' libraries
