@@ -2,6 +2,7 @@
 #include "tests/unit/slc/tool_fixture.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -310,6 +311,20 @@ TEST_F(Sloinfo, json_has_everything_but_the_code_or_what_is_asked_for) {
   EXPECT_EQ(sloinfo("--json --disassemble --sources a.sl"), 0);
   EXPECT_THAT(output_, HasSubstr("\"disassembly\": \"surface \\\"a\\\": "));
   EXPECT_THAT(output_, HasSubstr("\"state\": \"unchanged\""));
+}
+
+TEST_F(Sloinfo, the_example_of_the_schema_is_true) {
+  std::string page = slc::read_file(SLOINFO_SCHEMA).value_or("");
+  size_t source = page.find("    light pointlight("), json = page.find("```json\n", source);
+  ASSERT_NE(json, page.npos);
+  std::string text = page.substr(source, page.find("\n\n", source) + 1 - source);
+  for (size_t line = 0; line != text.npos && line < text.size(); line = text.find('\n', line) + 1)
+    text.erase(line, 4);
+  write("pointlight.sl", text);
+  ASSERT_EQ(sloinfo("--json pointlight.sl"), 0) << output_;
+  json += 8;
+  using Json = nlohmann::json;
+  EXPECT_EQ(Json::parse(page.substr(json, page.find("```", json) - json)), Json::parse(output_));
 }
 
 TEST_F(Sloinfo, options_that_contradict_each_other) {
