@@ -130,11 +130,8 @@ private:
   void visit_call(const ir::Inst& inst) {
     const slvm::ShadeopInfo& info = slvm::shadeop(static_cast<ShadeopId>(inst.index));
     const slvm::Signature& s = info.signature;
-    bool named = !inst.args.empty() && m_.type(inst.args[0]) == Type::kString;
-    if (info.flags & slvm::kTexture && named) {
-      add_named(uses_.textures, info.name, inst.args[0], inst.where);
-      if (info.name == "texture" && s.param_count == 2) read_.insert({"s", "t"}); // looked up there
-    }
+    files(inst, info);
+    if (info.name == "texture" && s.param_count == 2) read_.insert({"s", "t"}); // looked up there
     if (info.flags & slvm::kMessage) add_named(uses_.messages, info.name, inst.args[0], inst.where);
     if (info.flags & slvm::kRays) {
       bool category = info.name == "gather" || info.name == "traverse";
@@ -153,6 +150,29 @@ private:
         space(inst.args[i], inst.where);
     if (info.flags & slvm::kDerivative && !differentiate_.contains(key(inst.where)))
       add(uses_.derivatives, info.name, {}, inst.where);
+  }
+
+  // Files among the arguments: the map of a texture function, a parameter "file", and maps and point clouds
+  // that optional arguments name.
+  void files(const ir::Inst& inst, const slvm::ShadeopInfo& info) {
+    const slvm::Signature& s = info.signature;
+    auto add_file = [&](ir::ValueId v) {
+      if (m_.type(v) == Type::kString) add_named(uses_.textures, info.name, v, inst.where);
+    };
+    size_t next = 0; // outputs are no arguments
+    for (int i = 0; i < s.param_count && next < inst.args.size(); ++i) {
+      const slvm::SignatureParam& p = s.params[static_cast<size_t>(i)];
+      if (p.input && (p.name == "file" || (i == 0 && info.flags & slvm::kTexture))) add_file(inst.args[next]);
+      next += p.input;
+    }
+    for (; !s.token_set.empty() && next + 1 < inst.args.size(); next += 2) {
+      std::vector<Naming> tokens;
+      trace(inst.args[next], tokens);
+      bool names_file = std::any_of(tokens.begin(), tokens.end(), [](const Naming& t) {
+        return t.kind == Naming::kConstant && (t.text == "environmentmap" || t.text == "filename");
+      });
+      if (names_file) add_file(inst.args[next + 1]);
+    }
   }
 
   // The pairs behind the arguments of gather: what is asked of the surfaces that rays hit.

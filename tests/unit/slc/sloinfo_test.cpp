@@ -101,6 +101,19 @@ TEST_F(Sloinfo, textures_by_constant_parameter_or_computation) {
       "        Ci\n");
 }
 
+TEST_F(Sloinfo, files_of_point_clouds_and_optional_arguments) {
+  write("f.sl",
+        "surface f(string cloud = \"a.ptc\") {\n"
+        "  Ci = occlusion(P, normalize(N), 16, \"environmentmap\", \"sky.env\", \"filename\", cloud);\n"
+        "  bake3d(\"out.ptc\", \"\", P, N, \"area\", 1);\n"
+        "}\n");
+  EXPECT_EQ(sloinfo("--uses f.sl"), 0) << output_;
+  EXPECT_THAT(output_, HasSubstr("    textures\n"
+                                 "        occlusion \"sky.env\": f.sl:2\n"
+                                 "        occlusion, parameter \"cloud\", by default \"a.ptc\": f.sl:2\n"
+                                 "        bake3d \"out.ptc\": f.sl:3\n"));
+}
+
 TEST_F(Sloinfo, lights_and_functions_that_are_inlined) {
   write("p.sl", "float wide(float x) { return abs(Du(x)); }\n"
                 "surface p(string key = \"key\") {\n"
