@@ -11,6 +11,7 @@
 #include "slc/sema/reasons.h"
 
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <set>
 #include <tuple>
@@ -41,8 +42,8 @@ struct Variation {
 struct VarState {
   const Variable* declared = nullptr;
   unsigned variation = kUniform;
-  CausePtr cause;         // once it varies
-  int hard = 0, soft = 0; // control around the declaration
+  const Cause* cause = nullptr; // once it varies
+  int hard = 0, soft = 0;       // control around the declaration
 };
 
 // An output formal: another name of the variable it is called with.
@@ -57,10 +58,11 @@ struct Instance {
   std::map<const Variable*, VarState> variables;
   std::map<const CallExpr*, std::unique_ptr<Instance>> calls;
   std::map<const Variable*, Alias> aliases;
-  std::map<const Stmt*, CausePtr> soft_loops; // loops some lanes leave earlier than others
-  CausePtr soft_rest;                         // some lanes have returned already
+  std::map<const Stmt*, const Cause*> soft_loops; // loops some lanes leave earlier than others
+  const Cause* soft_rest = nullptr;               // some lanes have returned already
+  std::map<const void*, const Cause*> controls;   // by statement or condition: why lanes part there
   unsigned result = kUniform;
-  CausePtr result_cause;
+  const Cause* result_cause = nullptr;
 };
 
 // What was reported where: one function may be expanded in many places.
@@ -137,22 +139,22 @@ private:
 
   VarState& state(const Variable& v);
   /// Makes something vary as much as `more`, too; the first cause stays.
-  void mark(unsigned& degree, CausePtr& cause, unsigned more, const Cause& why) {
-    if (more && !cause) cause = std::make_shared<const Cause>(why);
+  void mark(unsigned& degree, const Cause*& cause, unsigned more, const Cause& why) {
+    if (more && !cause) cause = &causes_.emplace_back(why);
     changed_ |= std::exchange(degree, degree | more) != degree;
   }
-  void mark(CausePtr& flag, const CausePtr& why) {
+  void mark(const Cause*& flag, const Cause* why) {
     changed_ |= !flag;
     if (!flag) flag = why;
   }
   /// Control that some lanes only are under, as long as the object lives; none without cause.
   class Around {
   public:
-    Around(ContextWalk& walk, int& counter, CausePtr cause) : walk_(walk), counter_(counter) {
+    Around(ContextWalk& walk, int& counter, const Cause* cause) : walk_(walk), counter_(counter) {
       if (!cause) return;
       entered_ = true;
       ++counter_;
-      walk_.controls_.push_back(std::move(cause));
+      walk_.controls_.push_back(cause);
     }
     ~Around() {
       if (!entered_) return;
@@ -167,16 +169,21 @@ private:
     int& counter_;
     bool entered_ = false;
   };
-  static CausePtr condition(const Variation& v, SourceRange where) {
-    if (!v) return nullptr;
-    return std::make_shared<const Cause>(Cause{Cause::kCondition, where, "", v.why, nullptr});
+  /// Why lanes part at a statement or condition of this instance: one cause, however often it is walked.
+  const Cause* control_at(const void* node, const Cause& why) {
+    const Cause*& known = here().controls[node];
+    if (!known) known = &causes_.emplace_back(why);
+    return known;
   }
-  static CausePtr around(Cause::Kind kind, SourceRange where) {
-    return std::make_shared<const Cause>(Cause{kind, where, "", {}, nullptr});
+  const Cause* condition(const Expr* e, const Variation& v) {
+    return v ? control_at(e, {Cause::kCondition, e->range, "", v.why, nullptr}) : nullptr;
+  }
+  const Cause* around(const Stmt& s, Cause::Kind kind) {
+    return control_at(&s, {kind, s.range, "", {}, nullptr});
   }
   /// The outermost varying control inside of what there is `outside` of.
-  CausePtr control_from(int outside) const { return controls_[static_cast<size_t>(outside)]; }
-  CausePtr early(const Stmt& loop) {
+  const Cause* control_from(int outside) const { return controls_[static_cast<size_t>(outside)]; }
+  const Cause* early(const Stmt& loop) {
     auto it = here().soft_loops.find(&loop);
     return it == here().soft_loops.end() ? nullptr : it->second;
   }
@@ -194,7 +201,7 @@ private:
   void complain_of(const Reason& why, Msg id, SourceRange where, const Args&... args) {
     if (!reporting_ || !reported_.insert({where.file, where.line, where.column, id}).second) return;
     slvm::Diagnostic& d = report(diags_, id, where, args...);
-    if (std::vector<slvm::Note> notes = steps(why); !notes.empty()) d.notes.push_back(notes.front());
+    d.notes = nearest_step(why);
   }
 
   Shader& shader_;
@@ -206,7 +213,8 @@ private:
   std::set<const FunctionDef*> open_functions_; // being expanded
   size_t expansions_ = 0;
   int hard_ = 0, soft_ = 0;
-  std::vector<CausePtr> controls_;     // hard_ + soft_ of them, outermost first
+  std::deque<Cause> causes_;           // all there are
+  std::vector<const Cause*> controls_; // hard_ + soft_ of them, outermost first
   int illuminance_ = 0, emission_ = 0; // loops around this point, callers' included
   Variation old_value_;                // of the target of a compound assignment
   bool changed_ = false, reporting_ = false, gave_up_ = false;
@@ -233,7 +241,7 @@ VarState& ContextWalk::state(const Variable& v) {
     s.declared = &v;
     if (v.detail_given && v.detail == Detail::kVarying) {
       s.variation = kVarying;
-      s.cause = std::make_shared<const Cause>(Cause{Cause::kDeclared, v.where, v.name, {}, nullptr});
+      s.cause = &causes_.emplace_back(Cause{Cause::kDeclared, v.where, v.name, {}, nullptr});
     }
   }
   bound_[&v] = &s;
@@ -258,7 +266,7 @@ void ContextWalk::statement(Stmt* s) {
   case StmtKind::kExpression: values(as<ExpressionStmt>(s)->expressions); break;
   case StmtKind::kIf: {
     auto& branch = *as<IfStmt>(s);
-    Around varying(*this, hard_, condition(value(branch.condition.get()), branch.condition->range));
+    Around varying(*this, hard_, condition(branch.condition.get(), value(branch.condition.get())));
     statement(branch.then_branch.get());
     statement(branch.else_branch.get());
     break;
@@ -290,8 +298,7 @@ void ContextWalk::loop_body(const Stmt& loop_stmt, Stmt* body) {
 
 void ContextWalk::loop(LoopStmt& s) {
   statement(s.init.get());
-  Around varying(*this, hard_,
-                 condition(value(s.condition.get()), s.condition ? s.condition->range : s.range));
+  Around varying(*this, hard_, condition(s.condition.get(), value(s.condition.get())));
   loop_body(s, s.body.get());
   Around left(*this, soft_, early(s));
   values(s.steps);
@@ -302,7 +309,7 @@ void ContextWalk::jump(const JumpStmt& s) {
     const Loop& left = frame_.loops[i];
     if (control() <= left.control) continue;
     mark(here().soft_loops[left.statement],
-         std::make_shared<const Cause>(Cause{Cause::kLoopLeft, s.range, "", {}, control_from(left.control)}));
+         control_at(&s, {Cause::kLoopLeft, s.range, "", {}, control_from(left.control)}));
   }
 }
 
@@ -311,7 +318,7 @@ void ContextWalk::leave(ReturnStmt& s) {
   Variation variation;
   if (!uniform_function || !is_random(s.value.get())) variation = value(s.value.get());
   bool some_lanes = control() > frame_.control; // only
-  CausePtr outermost = some_lanes ? control_from(frame_.control) : nullptr;
+  const Cause* outermost = some_lanes ? control_from(frame_.control) : nullptr;
   std::string_view name = frame_.function ? std::string_view(frame_.function->name) : "";
   if (variation.degree == kVarying)
     mark(here().result, here().result_cause, kVarying,
@@ -322,7 +329,7 @@ void ContextWalk::leave(ReturnStmt& s) {
   if (uniform_function && variation.degree == kVarying)
     complain_of(variation.why, Msg::kVaryingResult, s.value->range, name);
   if (!some_lanes) return;
-  auto cause = std::make_shared<const Cause>(Cause{Cause::kReturnedFrom, s.range, "", {}, outermost});
+  const Cause* cause = control_at(&s, {Cause::kReturnedFrom, s.range, "", {}, outermost});
   mark(here().soft_rest, cause);
   for (const Loop& left : frame_.loops)
     mark(here().soft_loops[left.statement], cause);
@@ -338,7 +345,7 @@ void ContextWalk::illuminance(IlluminanceStmt& s) {
   value(s.angle.get());
   tokens(s.tokens, {kVarying, {Reason::kBuiltin, s.range, "illuminance", nullptr}});
   ++illuminance_;
-  Around lights(*this, soft_, around(Cause::kLights, s.range));
+  Around lights(*this, soft_, around(s, Cause::kLights));
   loop_body(s, s.body.get());
   --illuminance_;
 }
@@ -352,7 +359,7 @@ void ContextWalk::emission(EmissionStmt& s) {
   value(s.axis.get());
   value(s.angle.get());
   ++emission_;
-  Around light(*this, soft_, around(Cause::kLights, s.range));
+  Around light(*this, soft_, around(s, Cause::kLights));
   statement(s.body.get());
   --emission_;
 }
@@ -362,7 +369,7 @@ void ContextWalk::gather(GatherStmt& s) {
   need_uniform(s.category.get(), "category", name);
   for (ExprPtr* e : {&s.position, &s.direction, &s.angle, &s.samples})
     value(e->get());
-  Around rays(*this, hard_, around(Cause::kRays, s.range));
+  Around rays(*this, hard_, around(s, Cause::kRays));
   tokens(s.tokens, {kVarying, {Reason::kBuiltin, s.range, name, nullptr}});
   loop_body(s, s.body.get());
   loop_body(s, s.else_body.get());
@@ -402,13 +409,13 @@ Variation ContextWalk::value_here(Expr& e) {
   case ExprKind::kLogical: {
     auto& l = *as<LogicalExpr>(&e);
     Variation left = value(l.left.get());
-    Around varying(*this, hard_, condition(left, l.left->range));
+    Around varying(*this, hard_, condition(l.left.get(), left));
     return left | value(l.right.get());
   }
   case ExprKind::kConditional: {
     auto& c = *as<ConditionalExpr>(&e);
     Variation chosen = value(c.condition.get());
-    Around varying(*this, hard_, condition(chosen, c.condition->range));
+    Around varying(*this, hard_, condition(c.condition.get(), chosen));
     chosen |= value(c.then_value.get());
     return chosen | value(c.else_value.get());
   }
@@ -457,7 +464,7 @@ void ContextWalk::store_variable(VarState& s, const Variation& variation, Source
                                  std::string_view name) {
   const Variable& v = *s.declared;
   bool some_points = control() > s.hard + s.soft; // only
-  CausePtr outermost = some_points ? control_from(s.hard + s.soft) : nullptr;
+  const Cause* outermost = some_points ? control_from(s.hard + s.soft) : nullptr;
   Cause cause{Cause::kSet, where, name, variation.why, nullptr};
   if (some_points && variation.degree != kVarying) cause = {Cause::kSetUnder, where, name, {}, outermost};
   if (!always_uniform(v)) return mark(s.variation, s.cause, some_points ? kVarying : variation.degree, cause);
@@ -598,8 +605,8 @@ Variation ContextWalk::inlined(CallExpr& e) {
       binding = &state(*actual);
       if (element && variation) store_variable(*binding, variation, arg.range, actual->name);
       if (given_varying) {
-        auto declared =
-            std::make_shared<const Cause>(Cause{Cause::kDeclared, formal.where, formal.name, {}, nullptr});
+        const Cause* declared =
+            control_at(&formal, {Cause::kDeclared, formal.where, formal.name, {}, nullptr});
         store_variable(*binding, {kVarying, {Reason::kVariable, arg.range, formal.name, declared}}, arg.range,
                        actual->name);
       }

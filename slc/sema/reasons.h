@@ -1,18 +1,16 @@
 // Why values vary: kept while contexts.cpp works out that they do, told by notes of errors and by
 // slc --explain-varying. A cause is made when something is first found varying, and refers to earlier ones
-// only.
+// only; whoever makes causes keeps them.
 #pragma once
 
 #include "slvm/support/diagnostics.h"
 
-#include <memory>
 #include <string_view>
 #include <vector>
 
 namespace slc {
 
 struct Cause;
-using CausePtr = std::shared_ptr<const Cause>;
 
 /// What makes an expression vary: the first thing in it, in the order of evaluation.
 struct Reason {
@@ -25,7 +23,7 @@ struct Reason {
   } kind = kNone;
   slvm::SourceRange where;
   std::string_view name;
-  CausePtr cause;
+  const Cause* cause = nullptr;
 };
 
 /// Why a variable, a result, or the control around a statement varies.
@@ -48,13 +46,13 @@ struct Cause {
   } kind = kDeclared;
   slvm::SourceRange where;
   std::string_view name;
-  Reason reason;    ///< of the value or condition
-  CausePtr control; ///< of the statement at `where`
+  Reason reason;                  ///< of the value or condition; none where there is `control`
+  const Cause* control = nullptr; ///< of the statement at `where`
 };
 
 /// The chain, nearest first: "'c' is varying: it is set from 'r' here", "'r' is varying: ...".
 std::vector<slvm::Note> steps(const Cause& cause);
-/// What is behind a varying expression; nothing when nothing is known.
-std::vector<slvm::Note> steps(const Reason& reason);
+/// The first step behind a varying expression: one, or none when nothing is known.
+std::vector<slvm::Note> nearest_step(const Reason& reason);
 
 } // namespace slc

@@ -1,6 +1,8 @@
 // slc --explain-varying, word for word; and the notes of errors about varying values.
 #include "tests/unit/slc/tool_fixture.h"
 
+#include <algorithm>
+
 namespace {
 
 class Explain : public slc_test::Tool {
@@ -142,6 +144,18 @@ TEST_F(Explain, knows_lights_rays_messages_and_declarations) {
          "'P' is a predefined variable that varies\n"
          "surface \"a\"\n"
          "'E' is a predefined variable that is uniform\n");
+}
+
+TEST_F(Explain, chains_are_as_long_as_they_are) {
+  constexpr int kLinks = 5000;
+  std::string source = "surface a() {\n  float a0 = s;\n";
+  for (int i = 1; i < kLinks; ++i)
+    source += "  float a" + std::to_string(i) + " = a" + std::to_string(i - 1) + ";\n";
+  write("a.sl", source + "  float last = a" + std::to_string(kLinks - 1) + ";\n  Ci = last;\n}\n");
+  EXPECT_EQ(run("--explain-varying last a.sl"), 0);
+  EXPECT_EQ(std::count(output_.begin(), output_.end(), '\n'), kLinks + 3);
+  EXPECT_TRUE(output_.ends_with("a.sl:2:14: 'a0' is varying: it is set from 's' here\n"
+                                "a.sl:2:14: 's' is a predefined variable that varies\n"));
 }
 
 TEST_F(Explain, answers_for_each_shader) {
