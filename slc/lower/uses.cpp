@@ -29,8 +29,8 @@ public:
     each([this](const ir::Inst& inst) { note(inst); });
     source_calls();
     each([this](const ir::Inst& inst) { visit(inst); });
-    for (auto* list : {&uses_.messages, &uses_.textures, &uses_.rays, &uses_.derivatives, &uses_.lights,
-                       &uses_.queries, &uses_.spaces})
+    for (auto* list : {&uses_.messages, &uses_.sent, &uses_.textures, &uses_.rays, &uses_.derivatives,
+                       &uses_.lights, &uses_.queries, &uses_.spaces})
       in_order(*list);
     uses_.read.assign(read_.begin(), read_.end());
     uses_.written.assign(written_.begin(), written_.end());
@@ -133,6 +133,8 @@ private:
     files(inst, info);
     if (info.name == "texture" && s.param_count == 2) read_.insert({"s", "t"}); // looked up there
     if (info.flags & slvm::kMessage) add_named(uses_.messages, info.name, inst.args[0], inst.where);
+    if (info.name == "lightsend" && !inst.args.empty())
+      add_named(uses_.sent, "illuminance", inst.args[0], inst.where);
     if (info.flags & slvm::kRays) {
       bool category = info.name == "gather" || info.name == "traverse";
       if (category)

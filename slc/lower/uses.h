@@ -32,6 +32,7 @@ struct CallUse {
 struct Uses {
   std::vector<CallUse> calls;             ///< by name
   std::vector<Use> messages;              ///< values of other shaders; by gather: "surface:Ci"
+  std::vector<Use> sent;                  ///< values that light loops send to lights
   std::vector<Use> textures;              ///< maps and other files
   std::vector<Use> rays;                  ///< with the category of gather
   std::vector<Use> derivatives;           ///< what differentiates

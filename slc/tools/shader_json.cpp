@@ -90,7 +90,9 @@ void add_messages(Json& json, const Inspected& shader) {
   Json outputs = Json::array();
   for (const Param& p : shader.program.params)
     if (p.output) outputs.push_back(p.name);
-  json["messages"] = {{"reads", uses_as_json(shader, shader.uses.messages)}, {"outputs", outputs}};
+  json["messages"] = {{"reads", uses_as_json(shader, shader.uses.messages)},
+                      {"sends", uses_as_json(shader, shader.uses.sent)},
+                      {"outputs", outputs}};
 }
 
 void add_uses(Json& json, const Inspected& shader) {

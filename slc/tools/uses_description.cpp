@@ -72,6 +72,7 @@ std::string calls_section(const Inspected& shader) {
 std::string messages_as_text(const Inspected& shader) {
   std::string text = section(shader, "messages read", shader.uses.messages);
   if (text.empty()) text = fmt::format("{}no messages read\n", kSection);
+  text += section(shader, "messages sent to lights", shader.uses.sent);
   std::string outputs;
   for (const slvm::Param& p : shader.program.params)
     if (p.output) outputs += fmt::format("{}{} {}\n", kEntry, in_quotes(p.name), in_quotes(declaration(p)));

@@ -45,6 +45,20 @@ TEST_F(Sloinfo, messages) {
   expect_listing("--messages", "none", "surface \"none\"\n    no messages read\n    no outputs\n");
 }
 
+TEST_F(Sloinfo, light_loops_send_and_receive) {
+  write("l.sl", "surface l() {\n"
+                "  float x = 0;\n"
+                "  illuminance(P, \"send:light:gain\", 2, \"light:spread\", x) Ci += Cl * x;\n"
+                "}\n");
+  expect_listing("--messages", "l",
+                 "surface \"l\"\n"
+                 "    messages read\n"
+                 "        lightsource \"spread\": l.sl:3\n"
+                 "    messages sent to lights\n"
+                 "        illuminance \"gain\": l.sl:3\n"
+                 "    no outputs\n");
+}
+
 TEST_F(Sloinfo, gather_reads_messages_and_shoots_rays) {
   write("g.sl",
         "surface g() {\n"
@@ -252,6 +266,7 @@ TEST_F(Sloinfo, listings_as_json) {
       "messages_read": [],
       "messages": {
         "reads": [],
+        "sends": [],
         "outputs": [
           "d"
         ]
