@@ -1,9 +1,13 @@
-// The compiler's messages by name, and how to report one. The texts are in messages.def.
+// The compiler's messages by name, and how to report one. The texts are in messages.def, what the warnings mean
+// in warnings.def.
 #pragma once
 
 #include "slvm/support/diagnostics.h"
 
 #include <fmt/format.h>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace slc {
 
@@ -22,15 +26,27 @@ struct MessageInfo {
 };
 const MessageInfo& message_info(Msg);
 
+/// What one warning is about, for manual and --explain.
+struct WarningInfo {
+  std::string_view name;
+  bool on; ///< unless switched off
+  std::string_view meaning, reason;
+  std::string_view example, mended; ///< programs: with the warning, and without
+  std::string_view remedy;
+};
+/// By name.
+std::span<const WarningInfo> warnings();
+
 /// A name for several warnings, usable wherever the name of one is.
 struct WarningGroup {
   std::string_view name;
   std::vector<std::string_view> members;
+  std::string_view meaning;
 };
-/// "all", "lint", "strict" and PRMan's spellings.
+/// "all", "lint" and "strict".
 const std::vector<WarningGroup>& warning_groups();
-/// Warnings that are off unless asked for.
-const std::vector<std::string_view>& warnings_off_by_default();
+/// What `slc --explain NAME` prints about a warning or a group; empty when there is none of that name.
+std::string explain_warning(std::string_view name);
 /// The warnings `name` stands for: itself or a group's members; empty when there is no such warning.
 std::vector<std::string_view> warnings_named(std::string_view name);
 

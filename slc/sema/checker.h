@@ -105,6 +105,7 @@ private:
   // convert.cpp
   void finish_as(ExprPtr&, Type, Purpose);
   void convert(ExprPtr&, Type, Purpose);
+  void insert_conversion(ExprPtr&, Type);
   void lint_conversion(const Expr&, Type, Purpose);
   Argument argument(Expr&);
   static ShadeopId row(std::string_view name, Type result, Type param);

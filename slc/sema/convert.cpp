@@ -82,6 +82,12 @@ void Checker::convert(ExprPtr& e, Type to, Purpose purpose) {
     report(diags_, Msg::kRelationAsNumber, e->range);
   else if (to == Type::kBool)
     report(diags_, Msg::kFloatCondition, e->range);
+  insert_conversion(e, to);
+}
+
+void Checker::insert_conversion(ExprPtr& e, Type to) {
+  Type from = e->type;
+  bool retype = slvm::is_triple(from) && slvm::is_triple(to);
   auto conversion = std::make_unique<ConvertExpr>(e->range);
   conversion->shadeop = retype ? kNoShadeop : row("convert", to, from);
   conversion->operand = std::move(e);

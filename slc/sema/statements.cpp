@@ -211,8 +211,12 @@ void Checker::split_tokens(std::vector<ExprPtr>& args, size_t positional, std::s
 
 void Checker::check_condition(ExprPtr& e) {
   TypeSet types = analyse(*e);
-  if (e->kind == ExprKind::kAssign) report(diags_, Msg::kAssignedCondition, e->range);
   if (types.is_error()) return finish(e, Type::kBool);
+  if (e->kind == ExprKind::kAssign && types.only(Type::kFloat)) {
+    report(diags_, Msg::kAssignedCondition, e->range);
+    finish(e, Type::kFloat);
+    return insert_conversion(e, Type::kBool);
+  }
   if (e->array_length != kNotArray || conversion_cost(types, Type::kBool) >= kImpossible) {
     report(diags_, Msg::kBadCondition, e->range, slvm::type_name(types.preferred()));
     return;

@@ -83,7 +83,7 @@ struct Flags {
   bool mm = false, m = false, md = false, mmd = false;
   bool lint = false, nolint = false, lintpoint = false, lintspace = false, strict = false;
   bool version = false;
-  std::string dialect;
+  std::string dialect, explain;
 };
 
 void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
@@ -120,6 +120,7 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
       ->excludes("--dump")
       ->excludes("-E");
   list("-W", f.warnings, "-Wname, -Wno-name: switch a warning on or off; -Wall, -Werror");
+  app.add_option("--explain", f.explain, "Tell what a warning means, by its name; all: list them");
   app.add_flag("--nw", o.diagnostics.no_warnings, "-nw: no warnings");
   app.add_flag("--lint", f.lint,
                "-lint: also warn of mixed points and vectors, mixed spaces, unused parameters");
@@ -148,17 +149,37 @@ std::optional<int> usage_error(std::string_view text) {
   return 2;
 }
 
+// `name` as it stands behind -W.
+std::optional<int> no_such_warning(std::string_view name) {
+  std::vector<std::string_view> names = {"error"};
+  for (const WarningInfo& w : warnings())
+    names.push_back(w.name);
+  for (const WarningGroup& group : warning_groups())
+    names.push_back(group.name);
+  std::string_view prefix = name.starts_with("no-") ? "no-" : "";
+  std::string_view near = slvm::nearest_name(name.substr(prefix.size()), names);
+  std::string text = "there is no warning '" + std::string(name) + "'";
+  if (near.empty()) return usage_error(text + "; --explain all lists them");
+  return usage_error(text + "; did you mean '" + std::string(prefix) + std::string(near) + "'?");
+}
+
 // From what was parsed to what it means.
 std::optional<int> apply(ToolOptions& o, const Flags& f) {
   if (f.version) {
     std::cout << kVersion << '\n';
     return 0;
   }
+  if (!f.explain.empty()) {
+    std::string text = explain_warning(f.explain);
+    if (text.empty()) return no_such_warning(f.explain);
+    std::cout << text;
+    return 0;
+  }
   if (o.inputs.empty()) return usage_error("no input files");
   if (o.inputs.size() > 1 && !o.output.empty())
     return usage_error("-o names one file, but there are several inputs; use -d");
-  for (std::string_view name : warnings_off_by_default())
-    o.diagnostics.disabled.insert(std::string(name));
+  for (const WarningInfo& w : warnings())
+    if (!w.on) o.diagnostics.disabled.insert(std::string(w.name));
   for (auto [set, name] : {std::pair(f.lint, "lint"),
                            {f.nolint, "no-lint"},
                            {f.lintpoint, "lint-point"},
@@ -166,7 +187,7 @@ std::optional<int> apply(ToolOptions& o, const Flags& f) {
                            {f.strict, "strict"}})
     if (set) switch_warning(name, o.diagnostics);
   for (const std::string& name : f.warnings)
-    if (!switch_warning(name, o.diagnostics)) return usage_error("there is no warning '-W" + name + "'");
+    if (!switch_warning(name, o.diagnostics)) return no_such_warning(name);
   if (!f.dialect.empty()) {
     auto found = std::find_if(dialects().begin(), dialects().end(),
                               [&](const Dialect& d) { return d.name == f.dialect; });

@@ -2,7 +2,7 @@
 //   float x = 1.5f; // expect-warning: suffix
 // says that on this line, and nowhere else, a warning is given whose text contains "suffix". Several may
 // follow each other on a line. All warnings are on. A second test checks that each message of messages.def
-// occurs somewhere.
+// occurs somewhere, a third that each warning of warnings.def is what its example brings about.
 #include "slc/compiler.h"
 #include "slc/diag/messages.h"
 
@@ -148,6 +148,39 @@ TEST(Diagnostics, each_message_has_a_program) {
         std::any_of(texts.begin(), texts.end(), [&](const std::string& t) { return made_from(t, parts); });
     EXPECT_TRUE(seen) << "no program in tests/diagnostics brings about " << info.id << ": " << info.text;
   }
+}
+
+// The warnings of a program by name; its errors as failures.
+std::set<std::string> warnings_of(std::string_view program) {
+  Outcome out;
+  compiler().check(out.sources.add("example.sl", std::string(program)), {}, out.sources, out.diags);
+  EXPECT_FALSE(out.diags.has_errors()) << slvm::format_diagnostics(out.diags, out.sources);
+  std::set<std::string> names;
+  for (const Diagnostic& d : out.diags.sorted())
+    names.insert(d.warning_name);
+  return names;
+}
+
+TEST(Warnings, have_examples_that_bring_them_about_and_go_away) {
+  for (const slc::WarningInfo& w : slc::warnings()) {
+    SCOPED_TRACE(w.name);
+    EXPECT_EQ(warnings_of(w.example), std::set<std::string>{std::string(w.name)}) << w.example;
+    EXPECT_TRUE(warnings_of(w.mended).empty()) << w.mended;
+    EXPECT_FALSE(slc::explain_warning(w.name).empty());
+  }
+}
+
+TEST(Warnings, are_listed_once_and_all_of_them_are_explained) {
+  std::set<std::string_view> explained, used;
+  for (const slc::WarningInfo& w : slc::warnings())
+    EXPECT_TRUE(explained.insert(w.name).second) << w.name;
+  for (int i = 0; i < static_cast<int>(slc::Msg::kCount); ++i)
+    if (std::string_view name = slc::message_info(static_cast<slc::Msg>(i)).warning_name; !name.empty())
+      used.insert(name);
+  EXPECT_EQ(explained, used);
+  for (const slc::WarningGroup& group : slc::warning_groups())
+    for (std::string_view member : group.members)
+      EXPECT_TRUE(explained.contains(member)) << group.name << ": " << member;
 }
 
 } // namespace

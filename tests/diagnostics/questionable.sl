@@ -7,7 +7,7 @@ surface s(float k = 1; float unused = 2; string pattern = "%f") // expect-warnin
   float f = early; // expect-warning: read before it is set
   early = 1;
   if (k) f += 1; // expect-warning: a float used as condition
-  if (f = k) f += 1; // expect-warning: this assigns // expect-warning: a float used as condition
+  if (f = k) f += 1; // expect-warning: this assigns
   f = k > 2; // expect-warning: a relation used as a number
   f + 1; // expect-warning: the value of this expression is not used
   point both = P + P; // expect-warning: the sum of two points
