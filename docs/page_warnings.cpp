@@ -43,18 +43,20 @@ std::string groups_table() {
 
 std::string warnings_page() {
   std::string out = std::string("# Warnings of slc\n\n") + kGenerated;
-  out += "A warning says that a program compiles and may all the same not do what was meant, here or with other "
-         "compilers.\n"
-         "It ends with its name: `[-Wunused]`.\n\n"
-         "| | |\n|---|---|\n"
-         "| `-Wno-NAME` | silences it |\n"
-         "| `-WNAME` | asks for one that is off by default, or for a group |\n"
-         "| `-Werror` | makes errors of all warnings: the file is not compiled |\n"
-         "| `-nw` | no warnings at all |\n"
-         "| `#pragma nolint` | on a line of its own: no warnings about the statement that follows |\n"
-         "| `slc --explain NAME` | prints what stands below; `all` lists the names |\n\n"
-         "Later options win over earlier ones: `-Wall -Wno-unused` leaves one out. `SLC_OPTIONS` in the environment "
-         "comes first.\n\n";
+  out +=
+      "A warning says that a program compiles and may all the same not do what was meant, here or with other "
+      "compilers.\n"
+      "It ends with its name: `[-Wunused]`.\n\n"
+      "| | |\n|---|---|\n"
+      "| `-Wno-NAME` | silences it |\n"
+      "| `-WNAME` | asks for one that is off by default, or for a group |\n"
+      "| `-Werror` | makes errors of all warnings: the file is not compiled |\n"
+      "| `-nw` | no warnings at all |\n"
+      "| `#pragma nolint` | on a line of its own: no warnings about the statement that follows |\n"
+      "| `slc --explain NAME` | prints what stands below; `all` lists the names |\n\n"
+      "Later options win over earlier ones: `-Wall -Wno-unused` leaves one out. `SLC_OPTIONS` in the "
+      "environment "
+      "comes first.\n\n";
   out += groups_table();
   out += "| warning | by default | |\n|---|---|---|\n";
   for (const WarningInfo& w : slc::warnings())

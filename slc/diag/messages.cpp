@@ -14,7 +14,7 @@ constexpr MessageInfo kMessages[] = {
 };
 
 constexpr WarningInfo kWarnings[] = {
-#define WARNING(name, on, meaning, reason, example, mended, remedy)                                                    \
+#define WARNING(name, on, meaning, reason, example, mended, remedy)                                          \
   {name, on, meaning, reason, example, mended, remedy},
 #define WARNING_GROUP(name, members, meaning)
 #include "slc/diag/warnings.def"

@@ -1,5 +1,5 @@
-// The compiler's messages by name, and how to report one. The texts are in messages.def, what the warnings mean
-// in warnings.def.
+// The compiler's messages by name, and how to report one. The texts are in messages.def, what the warnings
+// mean in warnings.def.
 #pragma once
 
 #include "slvm/support/diagnostics.h"
