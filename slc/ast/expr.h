@@ -84,6 +84,7 @@ template <class T> const T* as(const Expr* e) {
 /// A float constant. PI is one too.
 struct NumberExpr : ExprOf<ExprKind::kNumber> {
   float value = 0;
+  bool broken = false; ///< stands for an expression with an error, which was reported
   using ExprOf::ExprOf;
 };
 
@@ -227,6 +228,7 @@ struct AssignExpr : ExprOf<ExprKind::kAssign> {
   ExprPtr target, value;
   bool compound = false;
   Operator op = Operator::kAdd; ///< of a compound one; after semantic analysis only for printing
+  SourceRange op_range;         ///< of the '='
   using ExprOf::ExprOf;
 };
 

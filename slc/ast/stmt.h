@@ -110,6 +110,7 @@ struct ReturnStmt : StmtOf<StmtKind::kReturn> {
 /// `illuminance([category,] position [, axis, angle] [, tokens])`.
 struct IlluminanceStmt : StmtOf<StmtKind::kIlluminance> {
   std::vector<ExprPtr> args; ///< as parsed, tokens included; empty after semantic analysis
+  bool broken = false;       ///< with an error in them, which was reported
   ExprPtr category;          ///< string; null: all lights
   ExprPtr position;          ///< point
   ExprPtr axis, angle;       ///< vector and float; both null or both set
@@ -122,6 +123,7 @@ struct IlluminanceStmt : StmtOf<StmtKind::kIlluminance> {
 struct EmissionStmt : StmtOf<StmtKind::kEmission> {
   bool is_solar = false;
   std::vector<ExprPtr> args; ///< as parsed; empty after semantic analysis
+  bool broken = false;       ///< with an error in them, which was reported
   ExprPtr position;          ///< point; null for solar
   ExprPtr axis, angle;       ///< vector and float; both null or both set
   StmtPtr body;
@@ -133,6 +135,7 @@ struct EmissionStmt : StmtOf<StmtKind::kEmission> {
 struct GatherStmt : StmtOf<StmtKind::kGather> {
   bool is_traverse = false;
   std::vector<ExprPtr> args;    ///< as parsed, tokens included; empty after semantic analysis
+  bool broken = false;          ///< with an error in them, which was reported
   ExprPtr category;             ///< string
   ExprPtr position, direction;  ///< point, vector
   ExprPtr angle, samples;       ///< floats; null for traverse

@@ -9,6 +9,7 @@
 #include "slc/ast/stmt.h"
 
 #include <deque>
+#include <set>
 
 namespace slc {
 
@@ -45,6 +46,7 @@ struct FunctionDef {
   Type result = Type::kVoid;
   bool result_given = true;       ///< false: the source omitted it
   bool result_uniform = false;    ///< declared `uniform`
+  bool broken = false;            ///< its formals had errors: calls cannot be checked
   std::vector<Variable*> formals; ///< passed by reference; read-only unless `output`
   std::unique_ptr<BlockStmt> body;
   ShadeopId shadeop = kNoShadeop; ///< the row whose body this is
@@ -78,6 +80,8 @@ struct TranslationUnit {
   std::deque<FunctionDef> functions; ///< in source order, nested ones included
   std::deque<Shader> shaders;        ///< in source order
   std::vector<Annotation> annotations;
+  /// Names whose declarations had errors: nothing more is said about them.
+  std::set<std::string, std::less<>> misdeclared;
   /// Keeps the functions of the built-ins alive, to which calls of this unit refer.
   std::shared_ptr<const TranslationUnit> builtins;
 };

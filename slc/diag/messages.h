@@ -50,6 +50,11 @@ std::string explain_warning(std::string_view name);
 /// The warnings `name` stands for: itself or a group's members; empty when there is no such warning.
 std::vector<std::string_view> warnings_named(std::string_view name);
 
+/// "1 argument", "2 arguments".
+inline std::string counted(size_t n, std::string_view noun) {
+  return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
+}
+
 /// Reports message `id` with its arguments filled in; notes can be attached to the result until the next
 /// report.
 template <class... Args>

@@ -31,6 +31,10 @@ struct Punctuator {
 };
 // Longer ones first.
 constexpr Punctuator kPunctuators[] = {
+    {"===", TokenKind::kForeign},    {"!==", TokenKind::kForeign},    {"=<", TokenKind::kForeign},
+    {"=>", TokenKind::kForeign},     {"<>", TokenKind::kForeign},     {"<<", TokenKind::kForeign},
+    {">>", TokenKind::kForeign},     {"**", TokenKind::kForeign},     {"%=", TokenKind::kForeign},
+    {"^=", TokenKind::kForeign},     {"&=", TokenKind::kForeign},     {"|=", TokenKind::kForeign},
     {"->", TokenKind::kArrow},       {"+=", TokenKind::kPlusAssign},  {"-=", TokenKind::kMinusAssign},
     {"*=", TokenKind::kStarAssign},  {"/=", TokenKind::kSlashAssign}, {"==", TokenKind::kEqual},
     {"!=", TokenKind::kNotEqual},    {"<=", TokenKind::kLessEqual},   {">=", TokenKind::kGreaterEqual},
@@ -76,6 +80,9 @@ private:
   void lex_number();
   void lex_name();
   void lex_string();
+  void lex_char_string();
+  bool lex_typographic();
+  void end_unterminated(std::string& value, size_t begin);
   void lex_punctuator();
   size_t take_escape(std::string& value);
   void push(Token token);
@@ -134,6 +141,10 @@ bool Lexer::next_token() {
   }
   if (at_ >= text_.size()) return false;
   char c = peek();
+  if (c == '/' && peek(1) == '/') { // left over behind a string without end
+    at_ = std::min(text_.find('\n', at_), text_.size());
+    return true;
+  }
   bool line_start = std::exchange(line_start_, false);
   if (c == '#' && line_start)
     lex_pragma();
@@ -143,7 +154,9 @@ bool Lexer::next_token() {
     lex_name();
   else if (c == '"')
     lex_string();
-  else
+  else if (c == '\'')
+    lex_char_string();
+  else if (static_cast<unsigned char>(c) < 0x80 || !lex_typographic())
     lex_punctuator();
   return true;
 }
@@ -244,11 +257,82 @@ void Lexer::lex_string() {
     }
   }
   bool closed = peek() == '"';
-  if (closed) ++at_;
+  if (closed)
+    ++at_;
+  else
+    end_unterminated(value, begin);
   Token token = make(TokenKind::kString, begin);
   token.text = std::move(value);
+  token.unterminated = !closed;
   if (!closed) report(diags_, Msg::kUnterminatedString, token.range);
   push(std::move(token));
+}
+
+// A string without end has taken the rest of its line. What closes the line, `) {` or `);`, is given back,
+// and a comment: so the error stays alone.
+void Lexer::end_unterminated(std::string& value, size_t begin) {
+  size_t end = std::min(text_.substr(0, at_).find("//", begin + 1), at_);
+  while (end > begin + 1 && std::string_view(" \t,;(){}").find(text_[end - 1]) != std::string_view::npos)
+    --end;
+  value.resize(value.size() - std::min(value.size(), at_ - end));
+  at_ = end;
+}
+
+// 'text', which other languages take for a string.
+void Lexer::lex_char_string() {
+  size_t begin = at_, end = text_.substr(0, text_.find('\n', at_)).find('\'', at_ + 1);
+  if (end == std::string_view::npos) {
+    ++at_;
+    return void(report(diags_, Msg::kBadCharacter, range(begin, at_), text_.substr(begin, 1)));
+  }
+  at_ = end + 1;
+  Token token = make(TokenKind::kString, begin);
+  token.text = std::string(text_.substr(begin + 1, end - begin - 1));
+  report(diags_, Msg::kSingleQuotes, token.range)
+      .fixits.push_back({token.range, fmt::format("\"{}\"", token.text)});
+  push(std::move(token));
+}
+
+// Quotes and dashes of word processors, and blanks of web pages: a message, and on with what is meant.
+bool Lexer::lex_typographic() {
+  struct Sign {
+    std::string_view bytes, meant;
+  };
+  constexpr Sign kSigns[] = {
+      {"\xE2\x80\x9C", "\""}, {"\xE2\x80\x9D", "\""}, {"\xE2\x80\x9E", "\""}, {"\xE2\x80\x98", "\""},
+      {"\xE2\x80\x99", "\""}, {"\xE2\x80\x93", "-"},  {"\xE2\x80\x94", "-"},  {"\xE2\x88\x92", "-"},
+      {"\xC3\x97", "*"},      {"\xC2\xB7", "."},      {"\xE2\x89\xA4", "<="}, {"\xE2\x89\xA5", ">="},
+      {"\xE2\x89\xA0", "!="}, {"\xC2\xA0", " "},
+  };
+  auto sign_at = [&](size_t at) {
+    auto starts = [&](const Sign& sign) { return text_.substr(at, sign.bytes.size()) == sign.bytes; };
+    auto found = std::find_if(std::begin(kSigns), std::end(kSigns), starts);
+    return found == std::end(kSigns) ? nullptr : found;
+  };
+  const Sign* sign = sign_at(at_);
+  if (!sign) return false;
+  size_t begin = at_;
+  at_ += sign->bytes.size();
+  report(diags_, Msg::kTypographic, range(begin, at_), text_.substr(begin, at_ - begin), sign->meant);
+  if (sign->meant == " ") return true;
+  if (sign->meant == "\"") { // up to the next quote of any kind
+    size_t line_end = std::min(text_.find('\n', at_), text_.size()), end = at_, after = line_end;
+    for (; end < line_end; ++end) {
+      const Sign* close = sign_at(end);
+      if (text_[end] != '"' && !(close && close->meant == "\"")) continue;
+      after = end + (close ? close->bytes.size() : 1);
+      break;
+    }
+    std::string value(text_.substr(at_, end - at_));
+    at_ = after;
+    Token token = make(TokenKind::kString, begin);
+    token.text = std::move(value);
+    push(std::move(token));
+    return true;
+  }
+  for (const Punctuator& p : kPunctuators)
+    if (p.text == sign->meant) push(make(p.kind, begin));
+  return true;
 }
 
 // Reads `\x`, appends its value. 0: an unknown escape, whose letter is taken as it is.

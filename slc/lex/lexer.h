@@ -47,13 +47,14 @@ enum class TokenKind : uint8_t {
   kComma,
   kSemicolon,
   kArrow,
-  kForeign ///< an operator of C that RSL lacks: ++ -- % & | ~
+  kForeign ///< an operator of other languages: ++ -- % & | ~ << ** and so on
 };
 
 struct Token {
   TokenKind kind = TokenKind::kEnd;
   bool after_nolint = false; ///< the first token behind a `#pragma nolint`
   bool is_integer = false;   ///< a number of digits only
+  bool unterminated = false; ///< a string whose end is missing: reported
   float number = 0;
   slvm::SourceRange range;
   std::string text; ///< as spelled; of strings the value, escapes resolved

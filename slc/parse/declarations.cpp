@@ -1,4 +1,4 @@
-// Shaders, functions, formals and variable declarations.
+// Files, shaders and functions, and what stands between them by mistake. Variables are in declarators.cpp.
 #include "slc/parse/parser.h"
 
 namespace slc {
@@ -12,20 +12,17 @@ TranslationUnit Parser::parse_file() {
   while (!at_end()) {
     size_t before = at_;
     if (take(TokenKind::kSemicolon)) continue;
-    if (at_shader_start())
+    ShaderKind kind;
+    bool nameless =
+        peek().kind == TokenKind::kLeftParen && shader_kind_of_word(current().text, kind) && at_function();
+    if (at_shader_start() || nameless) {
+      lost_ = false;
       parse_shader();
-    else if (at_function())
+    } else if (at_function()) {
+      lost_ = false;
       unit_.definitions.push_back({parse_function(), nullptr});
-    else if (!reject_rsl2_declaration()) {
-      if (at(TokenKind::kRightBrace)) {
-        report(diags_, Msg::kStrayBrace, current().range);
-        advance();
-      } else if (at(TokenKind::kIdentifier) && peek().kind == TokenKind::kIdentifier &&
-                 peek(2).kind == TokenKind::kLeftParen) {
-        fail(Msg::kUnknownShaderKind, current().text);
-      } else {
-        fail(Msg::kExpectedDefinition, describe_current());
-      }
+    } else if (!reject_rsl2_declaration()) {
+      parse_misplaced();
     }
     if (panic_) {
       if (at_ == before) advance();
@@ -38,6 +35,46 @@ TranslationUnit Parser::parse_file() {
   }
   assign_annotations();
   return std::move(unit_);
+}
+
+// What is neither shader nor function. Behind a '}' too many the rest of a shader comes by here: one message.
+void Parser::parse_misplaced() {
+  bool first = !std::exchange(lost_, true);
+  bool name_then_paren = peek().kind == TokenKind::kIdentifier && peek(2).kind == TokenKind::kLeftParen;
+  if (at(TokenKind::kRightBrace)) {
+    if (first) report(diags_, Msg::kStrayBrace, current().range, current().text);
+    advance();
+    lost_ = !first;
+  } else if (!first) {
+    panic_ = true;
+  } else if (at_prototype()) {
+    size_t name = peek().kind == TokenKind::kLeftParen    ? at_
+                  : peek(2).kind == TokenKind::kLeftParen ? at_ + 1
+                                                          : at_ + 2;
+    fail_at(Msg::kPrototype, tokens_[name].range, tokens_[name].text);
+    unit_.misdeclared.insert(tokens_[name].text);
+    lost_ = false;
+  } else if (at_declaration() && !name_then_paren) {
+    parse_global_variable();
+    lost_ = false;
+  } else if (at(TokenKind::kIdentifier) && name_then_paren) {
+    fail(Msg::kUnknownShaderKind, current().text);
+    lost_ = false;
+  } else {
+    bool behind = !unit_.definitions.empty() && tokens_[at_ ? at_ - 1 : 0].kind == TokenKind::kRightBrace;
+    fail(behind ? Msg::kLostDefinition : Msg::kExpectedDefinition, describe_current());
+  }
+}
+
+// Reported at its name; the names are known from here on as faulty.
+void Parser::parse_global_variable() {
+  size_t name = at_;
+  while (peek(name - at_ + 1).kind == TokenKind::kIdentifier)
+    ++name;
+  report(diags_, Msg::kGlobalVariable, tokens_[name].range, tokens_[name].text);
+  for (; !at_end() && !at(TokenKind::kSemicolon) && !at_shader_start() && !at_function(); advance())
+    if (at(TokenKind::kIdentifier) && at_ >= name) unit_.misdeclared.insert(current().text);
+  take(TokenKind::kSemicolon);
 }
 
 // An annotation belongs to the shader it stands in or behind; before the first shader, to that one.
@@ -54,26 +91,46 @@ void Parser::assign_annotations() {
 void Parser::parse_shader() {
   Shader& shader = unit_.shaders.emplace_back();
   unit_.definitions.push_back({nullptr, &shader});
-  shader_kind_of_word(current().text, shader.kind);
-  advance();
+  std::string kind = current().text;
+  shader_kind_of_word(kind, shader.kind);
+  if (peek().kind == TokenKind::kLeftParen)
+    report(diags_, Msg::kShaderName, current().range, kind);
+  else
+    advance();
   shader.name = current().text;
   shader.where = current().range;
   advance();
-  shader.params = parse_formals(VariableKind::kParameter);
-  shader.body = parse_block();
+  suspect_ = {};
+  bool broken = false;
+  if (at(TokenKind::kLeftBrace))
+    report(diags_, Msg::kShaderParens, shader.where, kind, shader.name);
+  else
+    shader.params = parse_formals(VariableKind::kParameter, broken);
+  shader.body = parse_body();
 }
 
-// A type or nothing, a name, and parentheses with a block behind them.
-bool Parser::at_function() const {
+// A block; a ';' that stands before it is reported.
+std::unique_ptr<BlockStmt> Parser::parse_body() {
+  if (at(TokenKind::kSemicolon) && peek().kind == TokenKind::kLeftBrace) {
+    report(diags_, Msg::kExpected, current().range, "'{'", describe_current());
+    advance();
+  }
+  return parse_block();
+}
+
+// The token behind `[detail] [type] name (...)`, from here; 0: no such thing stands here.
+size_t Parser::behind_formals() const {
   size_t i = at_;
   auto word = [&](size_t k) -> std::string_view {
     return k < tokens_.size() && tokens_[k].kind == TokenKind::kIdentifier ? std::string_view(tokens_[k].text)
                                                                            : "";
   };
   if (word(i) == "uniform" || word(i) == "varying") ++i;
-  if (word(i) == "void" || type_of_word(word(i)) != Type::kVoid) ++i;
-  if (word(i).empty() || type_of_word(word(i)) != Type::kVoid || i + 1 >= tokens_.size()) return false;
-  if (tokens_[++i].kind != TokenKind::kLeftParen) return false;
+  if (word(i) == "void" || type_of_word(word(i)) != Type::kVoid ||
+      (foreign_type(word(i)) && !word(i + 1).empty()))
+    ++i;
+  if (word(i).empty() || type_of_word(word(i)) != Type::kVoid || i + 1 >= tokens_.size()) return 0;
+  if (tokens_[++i].kind != TokenKind::kLeftParen) return 0;
   int depth = 0;
   for (; i < tokens_.size(); ++i) {
     TokenKind kind = tokens_[i].kind;
@@ -84,8 +141,25 @@ bool Parser::at_function() const {
     else if (kind == TokenKind::kLeftBrace || kind == TokenKind::kEnd)
       break;
   }
-  return i + 1 < tokens_.size() && tokens_[i].kind == TokenKind::kRightParen &&
-         tokens_[i + 1].kind == TokenKind::kLeftBrace;
+  return i + 1 < tokens_.size() && tokens_[i].kind == TokenKind::kRightParen ? i + 1 : 0;
+}
+
+// A type or nothing, a name, and parentheses with a block behind them.
+bool Parser::at_function() const {
+  if (at_statement_word() && peek().kind == TokenKind::kLeftParen) return false;
+  if (!foreign_statement(current().text).empty()) return false;
+  size_t behind = behind_formals();
+  if (behind == 0) return false;
+  bool typed = peek().kind != TokenKind::kLeftParen;
+  bool semicolon = typed && tokens_[behind].kind == TokenKind::kSemicolon && behind + 1 < tokens_.size() &&
+                   tokens_[behind + 1].kind == TokenKind::kLeftBrace;
+  return tokens_[behind].kind == TokenKind::kLeftBrace || semicolon;
+}
+
+// `float half(float x);`
+bool Parser::at_prototype() const {
+  size_t behind = behind_formals();
+  return behind != 0 && tokens_[behind].kind == TokenKind::kSemicolon && (declares(at_) || at_word("void"));
 }
 
 // funcdef = [ [detail] type | "void" ] IDENT "(" [ formals ] ")" block ;
@@ -95,121 +169,22 @@ FunctionDef* Parser::parse_function() {
     function.result_uniform = at_word("uniform");
     advance();
   }
-  function.result = type_of_word(current().text);
-  function.result_given = function.result != Type::kVoid || at_word("void");
-  if (function.result_given)
+  function.result_given = true;
+  if (at_word("void") || type_of_word(current().text) != Type::kVoid) {
+    function.result = type_of_word(current().text);
     advance();
-  else
+  } else if (peek().kind == TokenKind::kIdentifier) {
+    function.result = take_foreign_type(function.broken);
+  } else {
+    function.result_given = false;
     function.result = Type::kFloat;
+  }
   function.name = current().text;
   function.where = current().range;
   advance();
-  function.formals = parse_formals(VariableKind::kFormal);
-  function.body = parse_block();
+  function.formals = parse_formals(VariableKind::kFormal, function.broken);
+  function.body = parse_body();
   return &function;
-}
-
-// "(" [ formals ] ")", formals = fgroup { ( ";" | "," ) fgroup } [ ";" ] ;
-std::vector<Variable*> Parser::parse_formals(VariableKind kind) {
-  std::vector<Variable*> formals;
-  size_t open = at_;
-  expect(TokenKind::kLeftParen, "'('");
-  while (take(TokenKind::kSemicolon)) {
-  }
-  while (!panic_ && !at(TokenKind::kRightParen) && !at_end()) {
-    parse_formal_group(kind, formals);
-    bool separated = false;
-    while (take(TokenKind::kSemicolon) || take(TokenKind::kComma))
-      separated = true;
-    if (!separated) break;
-  }
-  expect(TokenKind::kRightParen, "')' or ';'");
-  if (panic_) skip_formals(open);
-  return formals;
-}
-
-// fgroup = { "output" | detail } type fdecl { "," fdecl } ;
-void Parser::parse_formal_group(VariableKind kind, std::vector<Variable*>& out) {
-  Specifiers specifiers = parse_specifiers();
-  if (specifiers.is_extern) fail(Msg::kMisplacedSpecifier, "extern", "a formal");
-  parse_declarators(specifiers, kind, out);
-}
-
-// { "output" | "extern" | "uniform" | "varying" } type
-Parser::Specifiers Parser::parse_specifiers() {
-  Specifiers s;
-  for (; at(TokenKind::kIdentifier) && is_specifier_word(current().text); advance()) {
-    std::string_view word = current().text;
-    if (word == "output") {
-      s.output = true;
-    } else if (word == "extern") {
-      s.is_extern = true;
-    } else {
-      s.detail_given = true;
-      s.detail = word == "uniform" ? Detail::kUniform : Detail::kVarying;
-    }
-  }
-  s.type = at(TokenKind::kIdentifier) ? type_of_word(current().text) : Type::kVoid;
-  if (s.type != Type::kVoid)
-    advance();
-  else if (!reject_rsl2_declaration())
-    fail(Msg::kExpectedType, describe_current());
-  return s;
-}
-
-// fdecl { "," fdecl }, up to a comma behind which a new group starts
-void Parser::parse_declarators(const Specifiers& s, VariableKind kind, std::vector<Variable*>& out) {
-  for (;;) {
-    if (panic_) return;
-    if (Variable* variable = parse_declarator(s, kind)) out.push_back(variable);
-    if (panic_ || !at(TokenKind::kComma)) return;
-    const Token& next = peek();
-    bool new_group = kind != VariableKind::kLocal && next.kind == TokenKind::kIdentifier &&
-                     (is_specifier_word(next.text) || type_of_word(next.text) != Type::kVoid);
-    if (new_group) return;
-    advance();
-  }
-}
-
-// fdecl = IDENT [ "[" [ constexpr ] "]" ] [ "=" ( expr | arrayinit ) ] ;
-Variable* Parser::parse_declarator(const Specifiers& s, VariableKind kind) {
-  if (!at(TokenKind::kIdentifier)) {
-    fail(Msg::kExpectedName, describe_current());
-    return nullptr;
-  }
-  if (type_of_word(current().text) != Type::kVoid || is_specifier_word(current().text)) {
-    fail(Msg::kReservedName, current().text);
-    return nullptr;
-  }
-  Variable& v = unit_.variables.emplace_back();
-  v.kind = kind;
-  v.name = current().text;
-  v.where = current().range;
-  v.type = s.type;
-  v.detail_given = s.detail_given;
-  v.detail = s.detail_given ? s.detail : Detail::kUniform;
-  v.output = s.output;
-  advance();
-  if (take(TokenKind::kLeftBracket)) {
-    v.array_length = kOpenArray;
-    if (!at(TokenKind::kRightBracket)) v.length_expr = parse_expression();
-    expect(TokenKind::kRightBracket, "']'");
-  }
-  if (take(TokenKind::kAssign)) v.init = at(TokenKind::kLeftBrace) ? parse_array_init() : parse_expression();
-  return &v;
-}
-
-// arrayinit = "{" expr { "," expr } [ "," ] "}" ;
-ExprPtr Parser::parse_array_init() {
-  auto init = std::make_unique<ArrayInitExpr>(current().range);
-  expect(TokenKind::kLeftBrace, "'{'");
-  while (!panic_ && !at(TokenKind::kRightBrace)) {
-    init->elements.push_back(parse_expression());
-    if (!take(TokenKind::kComma)) break;
-  }
-  expect(TokenKind::kRightBrace, "'}'");
-  init->range = join(init->range, last_range());
-  return init;
 }
 
 // Constructs of RSL 2.0, by name. True: reported and skipped, or in panic.
@@ -219,9 +194,11 @@ bool Parser::reject_rsl2_declaration() {
   const Token& next = peek();
   bool before_name = next.kind == TokenKind::kIdentifier;
   bool block = (word == "class" || word == "struct") && before_name;
+  // `shader name(`, of OSL, is an unknown kind of shader.
+  if (word == "shader" && peek(2).kind == TokenKind::kLeftParen) return false;
   bool other = (word == "plugin" && next.kind == TokenKind::kString) ||
                ((word == "shader" || word == "public" || word == "private" || word == "constant" ||
-                 word == "method" || word == "bool") &&
+                 word == "method") &&
                 before_name);
   if (!block && !other) return false;
   report(diags_, Msg::kRsl2, current().range, word);
@@ -229,6 +206,7 @@ bool Parser::reject_rsl2_declaration() {
     panic_ = true;
     return true;
   }
+  if (word == "struct") unit_.misdeclared.insert(next.text);
   while (!at_end() && !at(TokenKind::kLeftBrace) && !at(TokenKind::kSemicolon))
     advance();
   if (at(TokenKind::kLeftBrace)) skip_balanced();

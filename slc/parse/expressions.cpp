@@ -46,21 +46,35 @@ bool assignment_operator(TokenKind token, bool& compound, Operator& op) {
 
 } // namespace
 
-ExprPtr Parser::missing_expression() {
-  fail(Msg::kExpectedExpression, describe_current());
-  return std::make_unique<NumberExpr>(current().range);
+ExprPtr Parser::broken_expression(slvm::SourceRange where) const {
+  auto e = std::make_unique<NumberExpr>(where);
+  e->broken = true;
+  return e;
 }
 
-ExprPtr Parser::reject_foreign_operator() {
-  std::string_view text = current().text;
-  std::string_view advice = text == "%"    ? "write mod(a, b)"
-                            : text == "++" ? "write x += 1"
-                            : text == "--" ? "write x -= 1"
-                            : text == "&"  ? "logical 'and' is &&"
-                            : text == "|"  ? "logical 'or' is ||"
-                                           : "there are no bit operations";
-  fail(Msg::kForeignOperator, text, advice);
-  return std::make_unique<NumberExpr>(current().range);
+ExprPtr Parser::missing_expression() {
+  const Token& last = tokens_[at_ ? at_ - 1 : 0];
+  bool word = at(TokenKind::kIdentifier);
+  if (last.unterminated)
+    panic_ = true; // its quote took what is missing here
+  else if (word)
+    fail(Msg::kStatementAsValue, current().text);
+  else if (at(TokenKind::kLeftBracket))
+    fail(Msg::kSquareBrackets);
+  else if (slvm::Diagnostic* d = fail(Msg::kExpectedExpression, describe_current());
+           d && last.kind == TokenKind::kSemicolon && last.range.end - last.range.column != 1)
+    d->notes.push_back({last.range, "the text of this macro ends with a ';'"});
+  return broken_expression(current().range);
+}
+
+// Of other languages: punctuation, and words where an operator stands.
+const ForeignOperator* Parser::at_foreign_operator() const {
+  bool candidate = at(TokenKind::kForeign) || at(TokenKind::kIdentifier);
+  return candidate ? foreign_operator(current().text) : nullptr;
+}
+
+slvm::Diagnostic& Parser::report_foreign_operator(const ForeignOperator& foreign) {
+  return report(diags_, Msg::kForeignOperator, current().range, foreign.text, foreign.advice);
 }
 
 // expr   = assign ;
@@ -69,23 +83,42 @@ ExprPtr Parser::parse_expression() {
   Nesting nesting(*this);
   ExprPtr left = parse_ternary();
   if (panic_) return left;
-  if (at(TokenKind::kForeign)) return reject_foreign_operator();
-  if (at(TokenKind::kArrow)) fail(Msg::kRsl2, "->");
+  if (const ForeignOperator* foreign = at_foreign_operator(); foreign && at(TokenKind::kForeign)) {
+    report_foreign_operator(*foreign); // %= and its like
+    advance();
+    parse_expression();
+    return broken_expression(left->range);
+  }
   bool compound = false;
   Operator op = Operator::kAdd;
   if (!assignment_operator(current().kind, compound, op)) return left;
-  if (left->kind != ExprKind::kVariable && left->kind != ExprKind::kIndex) {
-    fail_at(Msg::kNotAssignable, left->range);
-    return left;
-  }
   auto assign = std::make_unique<AssignExpr>(left->range);
   assign->compound = compound;
   assign->op = op;
-  assign->target = std::move(left);
+  assign->op_range = current().range;
+  bool place = left->kind == ExprKind::kVariable || left->kind == ExprKind::kIndex;
+  if (!place) report_not_assignable(*left);
   advance();
-  assign->value = at(TokenKind::kLeftBrace) ? parse_array_init() : parse_expression();
+  ExprPtr value = at(TokenKind::kLeftBrace) ? parse_array_init() : parse_expression();
+  if (!place) return broken_expression(left->range);
+  assign->target = std::move(left);
+  assign->value = std::move(value);
   assign->range = range_of(*assign->target, last_range());
   return assign;
+}
+
+// `P.z = 1` and its like, and what is no place at all.
+void Parser::report_not_assignable(const Expr& e) {
+  const auto* dot = as<OperatorExpr>(&e);
+  const auto* object = dot && dot->op == Operator::kDot ? as<VariableExpr>(dot->operands[0].get()) : nullptr;
+  const auto* member = object ? as<VariableExpr>(dot->operands[1].get()) : nullptr;
+  if (object && unit_.misdeclared.contains(object->name)) return;
+  std::string advice = member ? member_advice(object->name, member->name, true) : "";
+  const auto* number = as<NumberExpr>(&e);
+  if (!advice.empty())
+    report(diags_, Msg::kMemberAssigned, e.range, advice);
+  else if (!number || !number->broken)
+    report(diags_, Msg::kNotAssignable, e.range);
 }
 
 // ternary = or [ "?" expr ":" ternary ] ;
@@ -111,26 +144,54 @@ ExprPtr Parser::parse_binary(int level) {
   ExprPtr left = parse_binary(level + 1);
   for (int length = 0; !panic_; ++length) {
     const BinaryOperator* found = binary_operator(current().kind, level);
-    if (!found) break;
+    const ForeignOperator* foreign = found ? nullptr : at_foreign_operator();
+    if (!found && (!foreign || foreign->level != level)) break;
     if (length == kMaxChain) fail(Msg::kTooDeep, kMaxChain);
-    advance();
-    ExprPtr right = parse_binary(level + 1);
-    slvm::SourceRange range = range_of(*left, last_range());
-    if (level == kOrLevel || level == kAndLevel) {
-      auto e = std::make_unique<LogicalExpr>(range);
-      e->is_and = level == kAndLevel;
-      e->left = std::move(left);
-      e->right = std::move(right);
-      left = std::move(e);
+    if (foreign) {
+      left = parse_foreign_binary(std::move(left), *foreign);
     } else {
-      auto e = std::make_unique<OperatorExpr>(range);
-      e->op = found->op;
-      e->operands.push_back(std::move(left));
-      e->operands.push_back(std::move(right));
-      left = std::move(e);
+      advance();
+      left = parse_binary_operator(std::move(left), level, found->op);
     }
   }
   return left;
+}
+
+// The operator's right side, and both put together.
+ExprPtr Parser::parse_binary_operator(ExprPtr left, int level, Operator op) {
+  ExprPtr right = parse_binary(level + 1);
+  slvm::SourceRange range = range_of(*left, last_range());
+  if (level == kOrLevel || level == kAndLevel) {
+    auto e = std::make_unique<LogicalExpr>(range);
+    e->is_and = level == kAndLevel;
+    e->left = std::move(left);
+    e->right = std::move(right);
+    return e;
+  }
+  auto e = std::make_unique<OperatorExpr>(range);
+  e->op = op;
+  e->operands.push_back(std::move(left));
+  e->operands.push_back(std::move(right));
+  return e;
+}
+
+// An operator of another language: reported, and what is meant is put in its place.
+ExprPtr Parser::parse_foreign_binary(ExprPtr left, const ForeignOperator& foreign) {
+  report_foreign_operator(foreign);
+  slvm::SourceRange where = current().range;
+  advance();
+  bool word = foreign.text == "and" || foreign.text == "or";
+  if (word || foreign.op != Operator::kNot)
+    return parse_binary_operator(std::move(left), foreign.level, foreign.op);
+  ExprPtr right = parse_binary(foreign.level + 1);
+  slvm::SourceRange range = range_of(*left, last_range());
+  if (foreign.function.empty()) return broken_expression(range);
+  auto call = std::make_unique<CallExpr>(range);
+  call->name = foreign.function;
+  call->name_range = where;
+  call->args.push_back(std::move(left));
+  call->args.push_back(std::move(right));
+  return call;
 }
 
 // unary = ("-" | "!") unary | cast unary | primary ;
@@ -150,8 +211,50 @@ ExprPtr Parser::parse_unary() {
     e->range = join(e->range, last_range());
     return e;
   }
+  bool word_not = at_word("not") && peek().kind == TokenKind::kIdentifier;
+  if (at(TokenKind::kForeign) || word_not) return parse_foreign_unary();
   if (at(TokenKind::kIdentifier) && type_of_word(current().text) != Type::kVoid) return parse_cast();
-  return parse_primary();
+  return parse_increments(parse_primary());
+}
+
+// `++i`, `&x`, `~n`, `not k`.
+ExprPtr Parser::parse_foreign_unary() {
+  const ForeignOperator* foreign = foreign_operator(current().text);
+  if (current().text == "&")
+    report(diags_, Msg::kReference, current().range);
+  else if (foreign && foreign->level < 0)
+    report_foreign_operator(*foreign);
+  else
+    return missing_expression();
+  bool address = current().text == "&";
+  advance();
+  ExprPtr operand = parse_unary();
+  return address ? std::move(operand) : broken_expression(operand->range);
+}
+
+// `i++`, taken for `i += 1`; and `v->x`.
+ExprPtr Parser::parse_increments(ExprPtr e) {
+  while (!panic_ && at(TokenKind::kForeign) && (current().text == "++" || current().text == "--")) {
+    std::string_view by = current().text == "++" ? " += 1" : " -= 1";
+    report_foreign_operator(*foreign_operator(current().text))
+        .fixits.push_back({current().range, std::string(by)});
+    advance();
+    auto assign = std::make_unique<AssignExpr>(join(e->range, last_range()));
+    if (e->kind != ExprKind::kVariable && e->kind != ExprKind::kIndex) return e;
+    assign->compound = true;
+    assign->target = std::move(e);
+    auto one = std::make_unique<NumberExpr>(last_range());
+    one->value = 1;
+    assign->value = std::move(one);
+    e = std::move(assign);
+  }
+  while (!panic_ && at(TokenKind::kArrow)) {
+    report(diags_, Msg::kArrow, current().range);
+    advance();
+    if (at(TokenKind::kIdentifier)) parse_name();
+    e = broken_expression(e->range);
+  }
+  return e;
 }
 
 // cast = ( "float" | "string" | "color" | "point" | "vector" | "normal" | "matrix" ) [ STRING ] ;
@@ -181,8 +284,7 @@ ExprPtr Parser::parse_primary() {
   }
   case TokenKind::kString: return parse_string();
   case TokenKind::kLeftParen: return parse_parenthesised();
-  case TokenKind::kIdentifier: return parse_name();
-  case TokenKind::kForeign: return reject_foreign_operator();
+  case TokenKind::kIdentifier: return is_statement_word(current().text) ? missing_expression() : parse_name();
   default: return missing_expression();
   }
 }
@@ -201,13 +303,17 @@ ExprPtr Parser::parse_parenthesised() {
   slvm::SourceRange open = current().range;
   advance();
   std::vector<ExprPtr> elements = parse_expression_list();
-  expect(TokenKind::kRightParen, "')'");
+  expect_close(TokenKind::kRightParen, "')'", open);
   slvm::SourceRange range = join(open, last_range());
   if (elements.size() == 1) {
     elements[0]->range = range;
     return std::move(elements[0]);
   }
-  if (elements.size() != 3 && elements.size() != 16) fail_at(Msg::kBadTuple, range, elements.size());
+  if (panic_) return broken_expression(range);
+  if (elements.size() != 3 && elements.size() != 16) {
+    report(diags_, Msg::kBadTuple, range, elements.size());
+    return broken_expression(range);
+  }
   auto e = std::make_unique<TupleExpr>(range);
   e->elements = std::move(elements);
   return e;
@@ -223,6 +329,7 @@ ExprPtr Parser::parse_name() {
     auto call = std::make_unique<CallExpr>(name.range);
     call->name = name.text;
     call->name_range = name.range;
+    slvm::SourceRange open = current().range;
     advance();
     while (!panic_ && !at(TokenKind::kRightParen)) {
       call->args.push_back(parse_expression());
@@ -232,17 +339,20 @@ ExprPtr Parser::parse_name() {
       }
       if (!take(TokenKind::kComma)) break;
     }
-    expect(TokenKind::kRightParen, "')' or ','");
+    expect_close(TokenKind::kRightParen, "')' or ','", open);
     call->range = join(call->range, last_range());
     return call;
   }
   if (take(TokenKind::kLeftBracket)) {
     auto e = std::make_unique<IndexExpr>(name.range);
     e->name = name.text;
+    slvm::SourceRange open = last_range();
     e->index = parse_expression();
-    expect(TokenKind::kRightBracket, "']'");
+    expect_close(TokenKind::kRightBracket, "']'", open);
     e->range = join(e->range, last_range());
-    return e;
+    if (!at(TokenKind::kLeftBracket)) return e;
+    reject_second_index();
+    return broken_expression(e->range);
   }
   auto e = std::make_unique<VariableExpr>(name.range);
   e->name = name.text;

@@ -14,6 +14,10 @@ Type type_of_word(std::string_view word) {
   return Type::kVoid;
 }
 
+bool is_statement_word(std::string_view word) {
+  return word == "if" || word == "else" || word == "while" || word == "for" || word == "return";
+}
+
 bool is_specifier_word(std::string_view word) {
   return word == "output" || word == "uniform" || word == "varying" || word == "extern";
 }
@@ -34,26 +38,64 @@ std::string Parser::describe_current() const {
 }
 
 bool Parser::expect(TokenKind kind, std::string_view what) {
+  return expect_close(kind, what, {});
+}
+
+bool Parser::expect_close(TokenKind kind, std::string_view what, slvm::SourceRange open) {
   if (take(kind)) return true;
   if (panic_) return false;
-  // A missing ';' or ')' is best shown behind what stands before it.
-  bool behind =
-      kind == TokenKind::kSemicolon && current().range.line != last_range().line && last_range().valid();
-  slvm::SourceRange where = current().range;
-  if (behind) {
-    where = last_range();
+  const Token& last = tokens_[at_ ? at_ - 1 : 0];
+  if (last.unterminated) { // its quote took what is missing here
+    panic_ = true;
+    return false;
+  }
+  bool ends_statement = kind == TokenKind::kSemicolon && !in_for_header_;
+  if (ends_statement && (at(TokenKind::kRightParen) || at(TokenKind::kRightBracket))) {
+    report(diags_, Msg::kStrayBrace, current().range, current().text);
+    advance();
+    return expect(kind, what);
+  }
+  // A missing ';' is best shown behind what stands before it, and a new line goes on with the next statement.
+  if (ends_statement && current().range.line != last.range.line && last.range.valid()) {
+    slvm::SourceRange where = last.range;
     where.column = where.end;
     where.end = where.column + 1;
+    report(diags_, Msg::kExpected, where, what, describe_current()).fixits.push_back({where, ";"});
+    panic_ = !at(TokenKind::kRightBrace) && !at(TokenKind::kIdentifier);
+    return false;
   }
-  fail_at(Msg::kExpected, where, what, describe_current());
+  slvm::Diagnostic* d = fail(Msg::kExpected, what, describe_current());
+  if (d && open.valid()) d->notes.push_back({open, "for this one"});
   return false;
 }
 
-// `surface name (`, where no statement can be meant.
+// `surface name (`, where no statement can be meant; or the same with the parentheses forgotten.
 bool Parser::at_shader_start() const {
   ShaderKind kind;
   return at(TokenKind::kIdentifier) && shader_kind_of_word(current().text, kind) &&
-         peek().kind == TokenKind::kIdentifier && peek(2).kind == TokenKind::kLeftParen;
+         peek().kind == TokenKind::kIdentifier &&
+         (peek(2).kind == TokenKind::kLeftParen || peek(2).kind == TokenKind::kLeftBrace);
+}
+
+bool Parser::declares(size_t i) const {
+  if (i >= tokens_.size() || tokens_[i].kind != TokenKind::kIdentifier) return false;
+  std::string_view word = tokens_[i].text;
+  return type_of_word(word) != Type::kVoid || is_specifier_word(word) || foreign_type(word);
+}
+
+bool Parser::at_declaration() const {
+  if (!at(TokenKind::kIdentifier)) return false;
+  std::string_view word = current().text;
+  bool type = type_of_word(word) != Type::kVoid;
+  const Token &next = peek(), &after = peek(2);
+  if (is_specifier_word(word)) return true;
+  if (type && next.kind == TokenKind::kLeftBracket) return true; // `float[3] x`
+  if (next.kind != TokenKind::kIdentifier) return false;
+  if (type) return after.kind != TokenKind::kLeftParen;
+  if (foreign_specifier(word) && declares(at_ + 1)) return true;
+  // Two names in a row: the first should be a type.
+  return after.kind == TokenKind::kSemicolon || after.kind == TokenKind::kAssign ||
+         after.kind == TokenKind::kComma || after.kind == TokenKind::kLeftBracket;
 }
 
 bool Parser::at_statement_word() const {
@@ -61,8 +103,7 @@ bool Parser::at_statement_word() const {
                                          "else", "traverse", "solar", "gather", "illuminance", "illuminate"};
   if (!at(TokenKind::kIdentifier)) return false;
   if (std::find(std::begin(kWords), std::end(kWords), current().text) != std::end(kWords)) return true;
-  bool declares = type_of_word(current().text) != Type::kVoid || is_specifier_word(current().text);
-  return declares && peek().kind == TokenKind::kIdentifier;
+  return declares(at_) && peek().kind == TokenKind::kIdentifier;
 }
 
 void Parser::synchronise() {
@@ -96,15 +137,19 @@ void Parser::skip_balanced() {
   } while (depth > 0 && !at_end());
 }
 
-// From the '(' at `open` to behind its ')', or to the block if there is none.
-void Parser::skip_formals(size_t open) {
-  if (gave_up_) return;
-  panic_ = false;
-  int depth = 0;
-  for (at_ = open; !at_end() && !at(TokenKind::kLeftBrace); advance()) {
-    if (at(TokenKind::kLeftParen)) ++depth;
-    if (at(TokenKind::kRightParen) && --depth == 0) return advance();
-  }
+// The column of the first token on a token's line.
+uint32_t Parser::indentation(size_t token) const {
+  const slvm::SourceRange at = tokens_[token].range;
+  while (token > 0 && tokens_[token - 1].range.file == at.file && tokens_[token - 1].range.line == at.line)
+    --token;
+  return tokens_[token].range.column;
+}
+
+// A '}' on a line of its own that does not stand below the line of its '{' may belong to another one.
+void Parser::note_indentation(size_t open, size_t close) {
+  const slvm::SourceRange first = tokens_[open].range, last = tokens_[close].range;
+  bool own_line = indentation(close) == last.column && first.file == last.file && first.line != last.line;
+  if (own_line && indentation(open) != last.column && !suspect_.valid()) suspect_ = first;
 }
 
 void Parser::too_deep() {

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace slc {
 namespace {
@@ -70,7 +73,7 @@ enum class DirectiveFix { kNone, kInsertLine };
 
 // Mends one directive line in place. kInsertLine: it is a line marker that lacks the word "line" after the
 // '#'.
-DirectiveFix fix_directive(char* begin, char* end) {
+DirectiveFix fix_directive(char* begin, char* end, std::string_view& name) {
   char* p = begin;
   while (p != end && is_blank(*p))
     ++p;
@@ -81,7 +84,7 @@ DirectiveFix fix_directive(char* begin, char* end) {
   char* word = p;
   while (p != end && is_letter(*p))
     ++p;
-  std::string_view name(word, static_cast<size_t>(p - word));
+  name = {word, static_cast<size_t>(p - word)};
   if (name == "endif" || name == "else") blank_until_comment(p, end);
   if (name == "pragma" && !has_word(p, end)) std::fill(begin, p, ' '); // Wave crashes on it
   if (!name.empty() || p == end || !is_digit(*p)) return DirectiveFix::kNone;
@@ -99,12 +102,13 @@ DirectiveFix fix_directive(char* begin, char* end) {
 
 } // namespace
 
-std::string normalise_source(std::string_view source, size_t* open_comment) {
+std::string normalise_source(std::string_view source, OpenEnds* open) {
   std::string text = plain_lines(source);
   std::string out;
   out.reserve(text.size());
   bool in_comment = false; // of the /* */ kind, at the start of the line
   size_t number = 0, comment_line = 0;
+  std::vector<std::pair<size_t, std::string>> conditionals; // around this line
   for (size_t begin = 0; begin < text.size();) {
     size_t end = text.find('\n', begin);
     ++number;
@@ -112,7 +116,12 @@ std::string normalise_source(std::string_view source, size_t* open_comment) {
     char* line_end = text.data() + end;
     if (!in_comment) {
       move_backslash_to_end(line, line_end);
-      if (fix_directive(line, line_end) == DirectiveFix::kInsertLine) {
+      std::string_view directive;
+      DirectiveFix fix = fix_directive(line, line_end, directive);
+      if (directive == "if" || directive == "ifdef" || directive == "ifndef")
+        conditionals.emplace_back(number, directive);
+      if (directive == "endif" && !conditionals.empty()) conditionals.pop_back();
+      if (fix == DirectiveFix::kInsertLine) {
         size_t hash = text.find('#', begin);
         out.append(text, begin, hash + 1 - begin);
         out += "line ";
@@ -142,7 +151,10 @@ std::string normalise_source(std::string_view source, size_t* open_comment) {
     begin = end + 1;
   }
   if (in_comment) out.insert(out.size() - 1, "*/");
-  if (open_comment) *open_comment = in_comment ? comment_line : 0;
+  if (open) {
+    open->comment = in_comment ? comment_line : 0;
+    if (!conditionals.empty()) std::tie(open->conditional, open->conditional_word) = conditionals.back();
+  }
   return out;
 }
 

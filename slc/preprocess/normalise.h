@@ -9,8 +9,13 @@
 
 namespace slc {
 
-/// `open_comment`, if given: the line (from 1) of a `/*` that is never closed, or 0. The end of the text
-/// closes it.
-std::string normalise_source(std::string_view text, size_t* open_comment = nullptr);
+/// What a text begins and never ends: line numbers from 1, 0 for none.
+struct OpenEnds {
+  size_t comment = 0;           ///< a `/*`; the end of the text closes it
+  size_t conditional = 0;       ///< the innermost #if, #ifdef or #ifndef without #endif
+  std::string conditional_word; ///< which of them
+};
+
+std::string normalise_source(std::string_view text, OpenEnds* open = nullptr);
 
 } // namespace slc

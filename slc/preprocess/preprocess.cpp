@@ -82,10 +82,17 @@ public:
 
   // Finds, reads and keeps an included file. False: reported.
   bool locate(const std::string& name, bool system, SourceRange where, std::string& path);
+  void widen_to_name(SourceRange& where, const std::string& name) const;
   std::string normalise(FileId file, std::string_view text) {
-    size_t open_comment = 0;
-    std::string clean = normalise_source(text, &open_comment);
-    if (open_comment) report(diags_, Msg::kOpenComment, word_range({file, open_comment, 0}, 0));
+    OpenEnds open;
+    std::string clean = normalise_source(text, &open);
+    if (open.comment) report(diags_, Msg::kOpenComment, word_range({file, open.comment, 0}, 0));
+    if (open.conditional && !open.comment) {
+      report(diags_, Msg::kOpenConditional,
+             word_range({file, open.conditional, 1}, open.conditional_word.size() + 1),
+             open.conditional_word);
+      open_conditional_ = true;
+    }
     return clean;
   }
   void keep(const std::string& path, const std::string& text, SourceRange included_from) {
@@ -125,6 +132,7 @@ private:
   std::vector<std::string> open_files_;
   std::map<std::string, std::string> texts_; // included files, normalised
   size_t include_count_ = 0, expansion_count_ = 0;
+  bool open_conditional_ = false; // reported
   std::set<std::pair<FileId, size_t>> definition_lines_;
   std::map<std::string, SourceRange, std::less<>> definitions_; // of macros, the newest of each name
   Place use_start_, use_end_;                                   // the outermost macro call being expanded
@@ -137,6 +145,14 @@ private:
 std::string folder_of(const std::string& path) {
   size_t slash = path.rfind('/');
   return slash == std::string::npos ? "" : path.substr(0, slash + 1);
+}
+
+// From the start of an #include line to the name in it.
+void State::widen_to_name(SourceRange& where, const std::string& name) const {
+  size_t at = sources_.line(where.file, where.line).find(name);
+  if (name.empty() || at == std::string_view::npos || at == 0) return;
+  where.column = static_cast<uint32_t>(at); // the quote before it
+  where.end = static_cast<uint32_t>(at + name.size() + 2);
 }
 
 bool State::locate(const std::string& name, bool system, SourceRange where, std::string& path) {
@@ -177,7 +193,12 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
   folders = std::move(named);
   for (std::string& folder : folders)
     folder = folder.empty() ? "'./'" : fmt::format("'{}'", folder);
+  std::vector<std::string_view> headers;
+  for (const EmbeddedText& header : options_.standard_headers)
+    headers.push_back(header.name);
+  std::string_view near = slvm::nearest_name(name, headers);
   report(diags_, Msg::kMissingInclude, where, name,
+         near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
          folders.empty() ? "no folder" : fmt::format("{}", fmt::join(folders, ", ")));
   return false;
 }
@@ -242,6 +263,7 @@ template <class Exception> void State::report_exception(const Exception& e, bool
   std::string_view text = e.description();
   size_t colon = text.find(": "); // "error: ", "fatal error: "
   if (colon != std::string_view::npos) text.remove_prefix(colon + 2);
+  if (open_conditional_ && text.find("#endif") != std::string_view::npos) return;
   bool warning = !lost && e.get_severity() < wave::util::severity_error;
   report(diags_, warning ? Msg::kPreprocessorWarning : Msg::kPreprocessor, where, text);
 }
@@ -271,6 +293,7 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
                            std::string& dir_path, std::string& native_name) {
     const auto& at = ctx.get_main_pos();
     SourceRange where = State::word_range(state->place(at), 0);
+    state->widen_to_name(where, file_path);
     std::string path;
     if (!state->locate(file_path, is_system, where, path)) {
       reported = true;

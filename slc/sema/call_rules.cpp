@@ -107,7 +107,8 @@ void Checker::check_print_pattern(CallExpr& call) {
     if (conversion_type(c.letter) == Type::kVoid)
       return void(report(diags_, Msg::kBadConversion, pattern->range, c.text));
   if (list.size() != values) {
-    report(diags_, Msg::kPatternCount, call.range, list.size(), values);
+    report(diags_, Msg::kPatternCount, call.range, counted(list.size(), "conversion"),
+           counted(values, "value"));
     return;
   }
   for (size_t i = 0; i < values; ++i) {

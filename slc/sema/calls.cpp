@@ -63,6 +63,8 @@ TypeSet Checker::analyse_call(CallExpr& call) {
     resolution.args.push_back(argument(*arg));
   }
   std::vector<Candidate> all = candidates(call, resolution.args);
+  for (const FunctionDef* f : scopes_.functions(call.name))
+    if (f->broken) return TypeSet::error(); // reported at its definition
   if (all.empty()) {
     report_unknown_function(call);
     return TypeSet::error();
@@ -85,6 +87,7 @@ void Checker::report_unknown_function(const CallExpr& call) {
     report(diags_, Msg::kUnknownFunctionHint, call.name_range, call.name, advice);
     return;
   }
+  if (unit_.misdeclared.contains(call.name)) return; // reported
   for (const FunctionDef& f : unit_.functions)
     if (f.name == call.name) {
       report(diags_, Msg::kFunctionTooLate, call.name_range, call.name)
@@ -99,6 +102,8 @@ void Checker::report_unknown_function(const CallExpr& call) {
   std::vector<std::string_view> names = scopes_.visible_functions();
   for (const slvm::ShadeopInfo& info : slvm::shadeops())
     if ((info.flags & slvm::kInternal) == 0) names.push_back(info.name);
+  for (Type t : {Type::kFloat, Type::kColor, Type::kPoint, Type::kVector, Type::kNormal, Type::kMatrix})
+    names.push_back(slvm::type_name(t)); // casts look like calls
   std::string_view near = slvm::nearest_name(call.name, names);
   if (near.empty())
     report(diags_, Msg::kUnknownFunction, call.name_range, call.name);
@@ -109,16 +114,30 @@ void Checker::report_unknown_function(const CallExpr& call) {
 
 void Checker::report_no_candidate(const CallExpr& call, const std::vector<Candidate>& all,
                                   const std::vector<Argument>& args) {
-  bool count_fits = false;
+  std::vector<const Candidate*> fitting; // in the number of arguments
   for (const Candidate& c : all)
-    count_fits |= c.takes_count(args.size());
-  slvm::Diagnostic& d = count_fits
-                            ? report(diags_, Msg::kNoCandidate, call.name_range, call.name, types_text(args))
-                            : report(diags_, Msg::kWrongArity, call.name_range, call.name, args.size());
+    if (c.takes_count(args.size())) fitting.push_back(&c);
+  // What the source does not show is not counted: the channel of texture functions.
+  std::vector<Argument> shown = args;
+  if (shown.size() > 1 && scopes_.functions(call.name).empty() && has_channel(call.name))
+    shown.erase(shown.begin() + 1);
+  slvm::Diagnostic& d =
+      fitting.empty()
+          ? report(diags_, Msg::kWrongArity, call.name_range, call.name, counted(shown.size(), "argument"))
+          : report(diags_, Msg::kNoCandidate, call.name_range, call.name, types_text(shown));
   for (size_t i = 0; i < all.size() && i < kMaxCandidateNotes; ++i)
     d.notes.push_back({{}, fmt::format("candidate: {}", all[i].text())});
   if (all.size() > kMaxCandidateNotes)
     d.notes.push_back({{}, fmt::format("and {} more", all.size() - kMaxCandidateNotes)});
+  if (fitting.size() != 1) return;
+  for (size_t i = 0; i < fitting[0]->positional(args.size()); ++i) {
+    Param p = fitting[0]->param(i);
+    if (argument_cost(p, args[i]) < kImpossible) continue;
+    d.notes.push_back(
+        {call.args[i]->range, fmt::format("'{}' is a {}{}, this is a {}", p.name, slvm::type_name(p.type),
+                                          p.array_length == kNotArray ? "" : "[]", types_text({args[i]}))});
+    return;
+  }
 }
 
 void Checker::finish_call(ExprPtr& e, Type wanted) {

@@ -78,6 +78,7 @@ private:
   void split_tokens(std::vector<ExprPtr>& args, size_t positional, std::string_view set,
                     std::string_view statement, std::vector<TokenArg>& tokens);
   void check_condition(ExprPtr&);
+  void finish_condition(ExprPtr&);
 
   // expressions.cpp
   TypeSet analyse(Expr&);
@@ -85,6 +86,8 @@ private:
   TypeSet analyse_name(VariableExpr&);
   TypeSet analyse_index(IndexExpr&);
   TypeSet analyse_operator(OperatorExpr&);
+  bool is_member(const OperatorExpr&);
+  bool is_chained(OperatorExpr&);
   TypeSet analyse_conditional(ConditionalExpr&);
   TypeSet analyse_assign(AssignExpr&);
   TypeSet set_of(const Expr&) const;

@@ -448,6 +448,9 @@ void ContextWalk::check_global(const Variable& v, bool store, SourceRange where)
     std::string_view advice;
     if (light && (v.global == Global::kCi || v.global == Global::kOi))
       advice = "; lights set Cl and Ol";
+    else if (shader_.kind == ShaderKind::kDisplacement &&
+             (v.global == Global::kCi || v.global == Global::kOi))
+      advice = "; displacements set P and N";
     else if (of_lights && shader_.kind != ShaderKind::kSurface)
       advice = "; it belongs to lights and to light loops of surfaces";
     complain(Msg::kGlobalNotHere, where, v.name, kind, advice);
@@ -484,7 +487,7 @@ void ContextWalk::store(Expr& place, Variation variation, SourceRange where) {
   }
   if (!v) return;
   if (v->kind == VariableKind::kGlobal) {
-    check_global(*v, true, where);
+    check_global(*v, true, place.range);
     if (v->detail == Detail::kUniform && variation)
       complain_of(variation.why, Msg::kVaryingToUniform, where, v->name);
     return;

@@ -58,6 +58,8 @@ void Checker::convert(ExprPtr& e, Type to, Purpose purpose) {
       advice = ": the function returns nothing";
     else if (mixed)
       advice = "; write a cast if the components are meant";
+    else if (to == Type::kString && from == Type::kFloat)
+      advice = "; format(\"%g\", x) makes a text of a number";
     else if (slvm::is_triple(from) && to == Type::kFloat)
       advice = "; take a component, or length()";
     switch (purpose.kind) {

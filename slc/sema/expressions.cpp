@@ -1,5 +1,7 @@
 // Names, operators, tuples, assignments and casts. Calls are in calls.cpp.
+#include "slc/parse/foreign.h"
 #include "slc/sema/checker.h"
+#include "slc/sema/hints.h"
 
 namespace slc {
 
@@ -16,7 +18,7 @@ TypeSet Checker::analyse(Expr& e) {
 
 TypeSet Checker::analyse_here(Expr& e) {
   switch (e.kind) {
-  case ExprKind::kNumber: return Type::kFloat;
+  case ExprKind::kNumber: return as<NumberExpr>(&e)->broken ? TypeSet::error() : TypeSet(Type::kFloat);
   case ExprKind::kString: return Type::kString;
   case ExprKind::kVariable: return analyse_name(*as<VariableExpr>(&e));
   case ExprKind::kIndex: return analyse_index(*as<IndexExpr>(&e));
@@ -48,14 +50,24 @@ TypeSet Checker::analyse_here(Expr& e) {
 }
 
 void Checker::report_unknown_variable(std::string_view name, SourceRange where) {
+  if (unit_.misdeclared.contains(name)) return; // what is wrong with it was said where it is declared
   std::vector<std::string_view> names = scopes_.visible_variables();
   for (int g = 0; g < slvm::kGlobalCount && !scopes_.in_function(); ++g)
     names.push_back(slvm::global_info(static_cast<Global>(g)).name);
   std::string_view near = slvm::nearest_name(name, names);
-  if (near.empty())
-    report(diags_, Msg::kUnknownVariable, where, name);
-  else
+  if (std::string_view advice = variable_hint(name); !advice.empty()) {
+    report(diags_, Msg::kUnknownVariableHint, where, name, advice);
+  } else if (!near.empty()) {
     report(diags_, Msg::kUnknownVariableNear, where, name, near).fixits.push_back({where, std::string(near)});
+  } else {
+    slvm::Diagnostic& d = report(diags_, Msg::kUnknownVariable, where, name);
+    for (const Shader& shader : unit_.shaders)
+      for (const Variable* v : shader.params)
+        if (v->name == name && scopes_.in_function() && d.notes.empty())
+          d.notes.push_back({v->where, fmt::format("a parameter of shader '{}' has this name: hand it to the "
+                                                   "function as an argument",
+                                                   shader.name)});
+  }
 }
 
 // The variable a name means here; null after an error.
@@ -93,7 +105,11 @@ TypeSet Checker::analyse_index(IndexExpr& e) {
   e.variable = resolve(e.name, e.range);
   if (!e.variable) return TypeSet::error();
   if (e.variable->array_length == kNotArray) {
-    report(diags_, Msg::kNotAnArray, e.range, e.name);
+    bool matrix = e.variable->type == Type::kMatrix, triple = slvm::is_triple(e.variable->type);
+    report(diags_, Msg::kNotAnArray, e.range, e.name,
+           matrix   ? fmt::format("; its elements are comp({}, row, column)", e.name)
+           : triple ? fmt::format("; its components are comp({0}, i), set by setcomp({0}, i, value)", e.name)
+                    : std::string());
     return TypeSet::error();
   }
   float index = 0;
@@ -103,7 +119,22 @@ TypeSet Checker::analyse_index(IndexExpr& e) {
   return e.variable->type;
 }
 
+// `N.y`, where there is no variable y: reported.
+bool Checker::is_member(const OperatorExpr& e) {
+  const auto* object = as<VariableExpr>(e.operands[0].get());
+  const auto* member = e.op == Operator::kDot ? as<VariableExpr>(e.operands[1].get()) : nullptr;
+  if (!object || !member || scopes_.find(member->name) || scopes_.find_outside(member->name) ||
+      slvm::find_global(member->name) != Global::kCount || unit_.misdeclared.contains(member->name))
+    return false;
+  if (unit_.misdeclared.contains(object->name)) return true; // reported
+  std::string advice = member_advice(object->name, member->name, false);
+  if (advice.empty()) return false;
+  report(diags_, Msg::kMember, e.range, advice);
+  return true;
+}
+
 TypeSet Checker::analyse_operator(OperatorExpr& e) {
+  if (is_member(e)) return TypeSet::error();
   Resolution resolution;
   bool error = false;
   for (ExprPtr& operand : e.operands) {
@@ -150,7 +181,9 @@ void Checker::report_bad_operands(const OperatorExpr& e, const std::vector<Argum
       any([](const Argument& a) { return a.types.single() && slvm::is_geometric(a.types.preferred()); });
   bool string = any([](const Argument& a) { return a.types.only(Type::kString); });
   bool array = any([](const Argument& a) { return a.array_length != kNotArray; });
-  bool floats = !any([](const Argument& a) { return !a.types.has(Type::kFloat); });
+  bool vectors =
+      !any([](const Argument& a) { return !a.types.single() || !slvm::is_geometric(a.types.preferred()); });
+  bool matrix = any([](const Argument& a) { return a.types.only(Type::kMatrix); });
   std::string_view advice;
   if (array)
     advice = "; arrays are used element by element";
@@ -158,9 +191,15 @@ void Checker::report_bad_operands(const OperatorExpr& e, const std::vector<Argum
     advice = "; cast one of them: colors and points do not mix";
   else if (string)
     advice = "; strings can only be compared with == and !=, and joined with concat()";
-  else if (e.op == Operator::kCross && floats)
+  else if (e.op == Operator::kNot)
+    advice = "; compare it with something";
+  else if (matrix && geometric)
+    advice = "; write transform(m, p), vtransform(m, v) or ntransform(m, n)";
+  else if (matrix)
+    advice = "; matrices are multiplied, divided and compared";
+  else if (e.op == Operator::kCross && !vectors)
     advice = "; '^' is the cross product of vectors: for a power write pow(x, y)";
-  else if (e.op == Operator::kDot && floats)
+  else if (e.op == Operator::kDot && !vectors)
     advice = "; '.' is the dot product of vectors or colors";
   report(diags_, Msg::kBadOperands, e.range, operator_text(e.op), types_text(args), advice);
 }
@@ -268,8 +307,8 @@ void Checker::finish(ExprPtr& e, Type wanted) {
   case ExprKind::kOperator: return finish_operator(*as<OperatorExpr>(e.get()), wanted);
   case ExprKind::kLogical: {
     auto& logical = *as<LogicalExpr>(e.get());
-    finish_as(logical.left, Type::kBool, {Purpose::kOperand, ""});
-    finish_as(logical.right, Type::kBool, {Purpose::kOperand, ""});
+    finish_condition(logical.left);
+    finish_condition(logical.right);
     break;
   }
   case ExprKind::kConditional: return finish_conditional(*as<ConditionalExpr>(e.get()), wanted);
@@ -294,12 +333,26 @@ void Checker::finish_operator(OperatorExpr& e, Type wanted) {
   Candidate chosen = r.viable[choose(r.viable, r.args, wanted)].candidate;
   e.shadeop = chosen.row;
   e.type = chosen.result();
+  if (is_chained(e)) return;
   for (size_t i = 0; i < e.operands.size(); ++i)
     finish_as(e.operands[i], chosen.param(i).type, {Purpose::kOperand, operator_text(e.op)});
   if (e.op == Operator::kAdd && chosen.param(0).type == Type::kPoint &&
       chosen.param(1).type == Type::kPoint && e.operands[0]->kind != ExprKind::kConvert &&
       e.operands[1]->kind != ExprKind::kConvert)
     report(diags_, Msg::kPointSum, e.range);
+}
+
+// `0 < x < 1`: reported, and finished.
+bool Checker::is_chained(OperatorExpr& e) {
+  bool relation = e.op >= Operator::kLess && e.op <= Operator::kGreaterEqual;
+  const auto* inner = relation ? as<OperatorExpr>(e.operands[0].get()) : nullptr;
+  if (!inner || inner->op < Operator::kLess || inner->op > Operator::kGreaterEqual) return false;
+  report(diags_, Msg::kChainedRelation, e.range, fmt::format("a {} b", operator_text(inner->op)),
+         fmt::format("b {} c", operator_text(e.op)));
+  finish(e.operands[0], Type::kBool);
+  insert_conversion(e.operands[0], Type::kFloat);
+  finish_as(e.operands[1], Type::kFloat, {Purpose::kOperand, operator_text(e.op)});
+  return true;
 }
 
 void Checker::finish_conditional(ConditionalExpr& e, Type wanted) {

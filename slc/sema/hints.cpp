@@ -33,17 +33,73 @@ constexpr Hint kHints[] = {
     {"fwidth", "use abs(Du(x)*du) + abs(Dv(x)*dv)"},
     {"tex2D", "use texture(name, s, t)"},
     {"rand", "use random()"},
-    {"snoise", "use 2*noise(p) - 1"},
+    {"snoise", "include noises.h, or write 2*noise(p) - 1"},
     {"luminance", "use comp() and the weights of your color space"},
     {"rgb2hsv", "use ctransform(\"rgb\", \"hsv\", c)"},
     {"hsv2rgb", "use ctransform(\"hsv\", \"rgb\", c)"},
     {"print", "use printf(\"%f\", x)"},
+    {"vec2", "use two floats, or a triple"},
+    {"vec3", "write color(x, y, z), vector(x, y, z), point(x, y, z) or normal(x, y, z)"},
+    {"float3", "write color(x, y, z), vector(x, y, z), point(x, y, z) or normal(x, y, z)"},
+    {"vector3", "write vector(x, y, z)"},
+    {"vec4", "use a color and a float"},
+    {"float4", "use a color and a float"},
+    {"rgb", "write color(r, g, b)"},
+    {"rgba", "write color(r, g, b); opacity is a color of its own"},
+    {"int", "use floor(x), or round(x)"},
+    {"not", "logical 'not' is !"},
+    {"mul", "use transform(m, p), vtransform(m, v) or ntransform(m, n)"},
+    {"transformPoint", "use transform(m, p)"},
+    {"texture2D", "use texture(name, s, t)"},
+    {"tex", "use texture(name, s, t)"},
+    {"emission", "add the color to Ci"},
+    {"transparent", "set Oi to the opacity, and multiply Ci by it"},
+    {"strcat", "use concat(a, b)"},
+    {"sprintf", "use format(pattern, values...)"},
+    {"array_length", "use arraylength(a)"},
+    {"sizeof", "use arraylength(a)"},
+    {"getattribute", "use attribute(name, variable)"},
+    {"getmessage", "use surface(), displacement() or lightsource()"},
+    {"setmessage", "declare an 'output' parameter"},
+    {"filterwidth", "include filterwidth.h"},
+    {"fBm", "include noises.h"},
+    {"turbulence", "include noises.h"},
+};
+
+constexpr std::string_view kAsString = "names of spaces are strings and stand in quotes";
+constexpr Hint kVariables[] = {
+    {"true", "write 1"},
+    {"TRUE", "write 1"},
+    {"false", "write 0"},
+    {"FALSE", "write 0"},
+    {"NULL", "nothing is null; the empty string is \"\""},
+    {"M_PI", "the constant is PI"},
+    {"pi", "the constant is PI"},
+    {"Pi", "the constant is PI"},
+    {"gl_FragColor", "surfaces set Ci and Oi"},
+    {"gl_FragCoord", "transform P to \"raster\" space"},
+    {"gl_Position", "displacements set P"},
+    {"uv", "the parameters are u and v, the texture coordinates s and t"},
+    {"world", kAsString},
+    {"object", kAsString},
+    {"shader", kAsString},
+    {"camera", kAsString},
+    {"screen", kAsString},
+    {"raster", kAsString},
+    {"NDC", kAsString},
+    {"current", kAsString},
 };
 
 } // namespace
 
 std::string_view function_hint(std::string_view name) {
   for (const Hint& hint : kHints)
+    if (hint.name == name) return hint.advice;
+  return {};
+}
+
+std::string_view variable_hint(std::string_view name) {
+  for (const Hint& hint : kVariables)
     if (hint.name == name) return hint.advice;
   return {};
 }

@@ -9,6 +9,8 @@ namespace slc {
 
 /// What to write instead of a call of `name`; empty when nothing is known.
 std::string_view function_hint(std::string_view name);
+/// The same for variables.
+std::string_view variable_hint(std::string_view name);
 
 /// A copy of a number or string, placed at `range`.
 ExprPtr copy_constant(const Expr&, SourceRange range);

@@ -28,6 +28,8 @@ std::string param_text(const Param& p) {
   return text;
 }
 
+} // namespace
+
 int argument_cost(const Param& p, const Argument& a) {
   if (a.types.is_error()) return 0;
   if ((p.array_length != kNotArray) != (a.array_length != kNotArray)) return kImpossible;
@@ -38,8 +40,6 @@ int argument_cost(const Param& p, const Argument& a) {
   bool by_reference = p.output || p.array_length != kNotArray;
   return by_reference && cost > 1 ? kImpossible : cost;
 }
-
-} // namespace
 
 Type Candidate::result() const {
   return function ? function->result : signature(row).result;
@@ -91,6 +91,12 @@ std::string Candidate::text() const {
   size_t count = function ? function->formals.size() : static_cast<size_t>(signature(row).param_count);
   std::string text = fmt::format("{} {}(", slvm::type_name(result()), name);
   for (size_t i = 0; i < count; ++i) {
+    // What the language writes in brackets behind the name of a texture.
+    bool channel = !function && i == 1 && param(i).name == "channel";
+    if (channel) {
+      text += "[channel]";
+      continue;
+    }
     if (i) text += ", ";
     text += param_text(param(i));
   }

@@ -49,6 +49,8 @@ struct Viable {
   int cost = 0;
 };
 
+/// Of the conversion of one argument; kImpossible when there is none.
+int argument_cost(const Param&, const Argument&);
 /// Sum of the conversions the candidate needs; kImpossible or more when it cannot be called so.
 int call_cost(const Candidate&, const std::vector<Argument>& args);
 /// The candidates of least cost, in order; empty when none can be called.

@@ -86,7 +86,8 @@ void Checker::check_jump(JumpStmt& jump) {
   if (loops_ == 0)
     report(diags_, Msg::kJumpOutsideLoop, jump.range, word);
   else if (jump.levels > loops_)
-    report(diags_, Msg::kJumpTooFar, jump.range, word, jump.levels, loops_);
+    report(diags_, Msg::kJumpTooFar, jump.range, word, jump.levels,
+           counted(static_cast<size_t>(loops_), "loop"));
 }
 
 void Checker::check_return(ReturnStmt& s) {
@@ -116,7 +117,9 @@ void Checker::check_illuminance(IlluminanceStmt& s) {
   size_t first = !s.args.empty() && set_of(*s.args[0]).only(Type::kString) ? 1 : 0;
   size_t positional = first + 1;
   if (positional < s.args.size() && !set_of(*s.args[positional]).only(Type::kString)) positional += 2;
-  if (positional > s.args.size()) {
+  if (s.broken) {
+    // reported by the parser
+  } else if (positional > s.args.size()) {
     report(diags_, Msg::kIlluminanceArguments, s.range);
   } else {
     if (first == 1) {
@@ -148,7 +151,9 @@ void Checker::check_emission(EmissionStmt& s) {
   for (ExprPtr& e : s.args)
     analyse(*e);
   size_t first = s.is_solar ? 0 : 1;
-  if (s.args.size() != first && s.args.size() != first + 2) {
+  if (s.broken) {
+    // reported by the parser
+  } else if (s.args.size() != first && s.args.size() != first + 2) {
     if (s.is_solar)
       report(diags_, Msg::kSolarArguments, s.range);
     else
@@ -173,7 +178,9 @@ void Checker::check_gather(GatherStmt& s) {
   for (ExprPtr& e : s.args)
     analyse(*e);
   size_t positional = s.is_traverse ? 3 : 5;
-  if (s.args.size() < positional) {
+  if (s.broken) {
+    // reported by the parser
+  } else if (s.args.size() < positional) {
     report(diags_, s.is_traverse ? Msg::kTraverseArguments : Msg::kGatherArguments, s.range);
   } else {
     auto take = [&](size_t i, Type type) {
@@ -210,16 +217,22 @@ void Checker::split_tokens(std::vector<ExprPtr>& args, size_t positional, std::s
 }
 
 void Checker::check_condition(ExprPtr& e) {
-  TypeSet types = analyse(*e);
+  analyse(*e);
+  finish_condition(e);
+}
+
+void Checker::finish_condition(ExprPtr& e) {
+  TypeSet types = set_of(*e);
   if (types.is_error()) return finish(e, Type::kBool);
   if (e->kind == ExprKind::kAssign && types.only(Type::kFloat)) {
-    report(diags_, Msg::kAssignedCondition, e->range);
+    SourceRange equals = as<AssignExpr>(e.get())->op_range;
+    report(diags_, Msg::kAssignedCondition, e->range).fixits.push_back({equals, "=="});
     finish(e, Type::kFloat);
     return insert_conversion(e, Type::kBool);
   }
   if (e->array_length != kNotArray || conversion_cost(types, Type::kBool) >= kImpossible) {
     report(diags_, Msg::kBadCondition, e->range, slvm::type_name(types.preferred()));
-    return;
+    return finish(e, Type::kVoid);
   }
   finish_as(e, Type::kBool, {Purpose::kOperand, ""});
 }

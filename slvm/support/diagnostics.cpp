@@ -141,7 +141,7 @@ std::string format_diagnostics(const Diagnostics& diags, const SourceManager& so
 
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> candidates) {
   std::string_view best;
-  size_t best_distance = 3; // at most 2 edits
+  size_t best_distance = name.size() < 4 ? 2 : 3; // at most 2 edits, 1 in short names
   std::vector<size_t> row;
   for (std::string_view candidate : candidates) {
     size_t gap =

@@ -84,8 +84,8 @@ private:
 /// The text form shown above, ready for stderr. `colour`: ANSI colours for a terminal.
 std::string format_diagnostics(const Diagnostics&, const SourceManager&, bool colour = false);
 
-/// The candidate nearest to `name` by edit distance (at most 2, and less than the name's length); empty if
-/// none.
+/// The candidate nearest to `name` by edit distance (at most 2, 1 for names of 3 letters, and less than the
+/// name's length); empty if none.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> candidates);
 
 } // namespace slvm

@@ -2,7 +2,8 @@
 //   float x = 1.5f; // expect-warning: suffix
 // says that on this line, and nowhere else, a warning is given whose text contains "suffix". Several may
 // follow each other on a line. All warnings are on. A second test checks that each message of messages.def
-// occurs somewhere, a third that each warning of warnings.def is what its example brings about.
+// occurs somewhere, a third that each warning of warnings.def is what its example brings about. Where a
+// NAME.txt stands beside NAME.sl, it is what slc prints, with carets, notes and fixes.
 #include "slc/compiler.h"
 #include "slc/diag/messages.h"
 
@@ -102,6 +103,29 @@ TEST_P(DiagnosticsTest, says_what_is_expected) {
 
 INSTANTIATE_TEST_SUITE_P(programs, DiagnosticsTest, testing::ValuesIn(programs()),
                          [](const testing::TestParamInfo<std::string>& program) { return program.param; });
+
+// With lines, carets, notes and fixes. The folder is cut from the names of files.
+std::string printed(const std::string& program) {
+  Outcome out;
+  compile(program, out);
+  std::string text = slvm::format_diagnostics(out.diags, out.sources);
+  std::string folder = std::string(DIAGNOSTICS_DIR) + "/";
+  for (size_t at; (at = text.find(folder)) != std::string::npos;)
+    text.erase(at, folder.size());
+  return text;
+}
+
+TEST(Diagnostics, are_printed_as_shown) {
+  int compared = 0;
+  for (const std::string& program : programs()) {
+    std::string path = std::string(DIAGNOSTICS_DIR) + "/" + program + ".txt";
+    std::optional<std::string> expected = slc::read_file(path);
+    if (!expected) continue;
+    ++compared;
+    EXPECT_EQ(printed(program), *expected) << path;
+  }
+  EXPECT_GE(compared, 4);
+}
 
 // The fixed parts of a message's text, between its {} fields.
 std::vector<std::string> fixed_parts(std::string_view text) {

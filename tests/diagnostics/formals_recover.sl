@@ -1,7 +1,7 @@
 // A bad formal does not spoil the rest of the file.
-surface one(float a = 1; flt b = 2; // expect-error: expected a type, found 'flt'
+surface one(float a = 1; flt b = 2; // expect-error: unknown type 'flt'
             float c = 3)
 {
-  Ci = c; // expect-error: unknown variable 'c'
+  Ci = c; // what follows is known
 }
 surface two(float a = 1;) { Ci = a; }

@@ -9,7 +9,7 @@ surface one(float k = 1)
   else a = 1; // expect-error: belongs to no 'if'
   break 1.5; // expect-error: whole number from 1 // expect-error: 'break' stands in no loop
   return = 3; // expect-error: 'return' is no variable
-  uniform d = 1; // expect-error: expected a type, found 'd'
+  uniform d = 1; // expect-error: the type of 'd' is missing
   float 3 = 1; // expect-error: only a variable or an array element
   float color = 1; // expect-error: cannot be a name
   output float e = 1; // expect-error: 'output' does not belong to a local variable

@@ -10,7 +10,7 @@ surface s(float k = 1; string name = "")
   a = a + +b; // expect-warning: '+' sign has no effect
   a = a % b; // expect-error: no operator '%': write mod(a, b)
   string t = "a\qb"; // expect-warning: unknown escape '\q'
-  string u = "open; // expect-error: does not end on this line // expect-error: expected ';'
+  string u = "open; // expect-error: does not end on this line
 #pragma nonsense // expect-warning: #pragma nonsense is ignored
 #pragma annotation "only one" // expect-warning: needs two strings
 }

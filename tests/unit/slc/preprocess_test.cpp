@@ -84,9 +84,10 @@ TEST(Preprocess, searches_own_folder_then_include_folders) {
   EXPECT_EQ(text.dependencies[0].path, "first/a.h");
   EXPECT_TRUE(text.dependencies[0].system);
   EXPECT_FALSE(text.dependencies[1].system);
-  EXPECT_EQ(front.messages(),
-            "main.sl:2:1: error: cannot find 'second.h', included here; searched in 'first/', 'second/'\n"
-            "    2 | #include <second.h>\n      | ^\n");
+  EXPECT_EQ(
+      front.messages(),
+      "main.sl:2:10: error: cannot find 'second.h'; searched in 'first/', 'second/' (-I adds a folder)\n"
+      "    2 | #include <second.h>\n      |          ^~~~~~~~~~\n");
 }
 
 TEST(Preprocess, stringizing_and_pasting) {

@@ -58,7 +58,10 @@ TEST(Sema, messages_have_the_documented_form) {
   EXPECT_EQ(front.messages(), "main.sl:2:15: error: no 'smoothstep' takes (color, float, float)\n"
                               "    2 |     float w = smoothstep(Cs, 0.2, 0.8);\n"
                               "      |               ^~~~~~~~~~\n"
-                              "note: candidate: float smoothstep(float min, float max, float x)\n");
+                              "note: candidate: float smoothstep(float min, float max, float x)\n"
+                              "main.sl:2:26: note: 'min' is a float, this is a color\n"
+                              "    2 |     float w = smoothstep(Cs, 0.2, 0.8);\n"
+                              "      |                          ^~\n");
 }
 
 TEST(Sema, one_compiler_serves_many_threads) {

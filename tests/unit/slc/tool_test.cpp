@@ -113,8 +113,9 @@ TEST_F(Messages, come_as_json) {
   EXPECT_EQ(
       output_,
       "{\"severity\":\"error\",\"message\":\"unknown variable 'y'\",\"at\":{\"file\":\"inner.h\",\"line\":1,"
-      "\"column\":35,\"end\":36},\"included_from\":[{\"file\":\"outer.h\",\"line\":1,\"column\":1,\"end\":2},"
-      "{\"file\":\"x.sl\",\"line\":2,\"column\":1,\"end\":2}]}\n"
+      "\"column\":35,\"end\":36},\"included_from\":[{\"file\":\"outer.h\",\"line\":1,\"column\":10,\"end\":"
+      "19},"
+      "{\"file\":\"x.sl\",\"line\":2,\"column\":10,\"end\":19}]}\n"
       "{\"severity\":\"error\",\"message\":\"unknown variable 'hlaf'; did you mean "
       "'half'?\",\"at\":{\"file\":\"x.sl\","
       "\"line\":4,\"column\":13,\"end\":17},\"notes\":[{\"message\":\"in the expansion of macro 'HALF', "
