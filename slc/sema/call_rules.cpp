@@ -140,7 +140,8 @@ std::string Checker::space_of(const Expr& e) const {
     return it == spaces_.end() ? "" : it->second;
   }
   const auto* call = as<CallExpr>(&e);
-  if (!call || (call->name != "transform" && call->name != "vtransform" && call->name != "ntransform"))
+  if (!call || call->args.empty() ||
+      (call->name != "transform" && call->name != "vtransform" && call->name != "ntransform"))
     return "";
   bool names_both = call->args.size() == 3;
   const auto* to = as<StringExpr>(call->args[names_both ? 1 : 0].get());

@@ -12,6 +12,7 @@ surface s(float k = 1; string token = "blur")
   gather("", P, N, 0, 4, "ray:length", 2) f += 1; // expect-error: can receive it
   illuminance() f += 1; // expect-error: illuminance takes
   illuminance(P, N) f += 1; // expect-error: illuminance takes
+  point q = transform(); // expect-error: no 'transform' takes 0 arguments
   printf("%d %q", f, f); // expect-error: '%q' is no conversion
   printf("%d", f, f); // expect-error: the pattern has 1 conversion for 2 values
   printf("%c", f); // expect-error: '%c' cannot print a float
