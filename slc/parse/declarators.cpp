@@ -199,7 +199,9 @@ Variable* Parser::parse_declarator(const Specifiers& s, VariableKind kind) {
     fail(Msg::kExpectedName, describe_current());
     return nullptr;
   }
-  if (type_of_word(current().text) != Type::kVoid || is_specifier_word(current().text)) {
+  std::string_view word = current().text;
+  bool jump = word == "break" || word == "continue";
+  if (type_of_word(word) != Type::kVoid || is_specifier_word(word) || is_statement_word(word) || jump) {
     fail(Msg::kReservedName, current().text);
     return nullptr;
   }
