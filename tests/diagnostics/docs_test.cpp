@@ -97,4 +97,17 @@ TEST(Documents, have_programs_that_compile) {
   EXPECT_GE(checked, 50u);
 }
 
+TEST(Documents, show_the_program_that_embeds_us) {
+  std::string page = slc::read_file(DOCS_DIR "/embedding.md").value_or("");
+  std::string program = slc::read_file(EXTERNAL_DIR "/shade_grid.cpp").value_or("none");
+  EXPECT_NE(page.find("```cpp\n" + program + "```"), std::string::npos)
+      << "copy tests/external/shade_grid.cpp";
+  std::string lists = slc::read_file(EXTERNAL_DIR "/CMakeLists.txt").value_or("none");
+  size_t begin = page.find("```cmake\n");
+  ASSERT_NE(begin, std::string::npos);
+  begin = page.find('\n', begin) + 1;
+  std::string shown = page.substr(begin, page.find("```", begin) - begin);
+  EXPECT_NE(lists.find(shown), std::string::npos) << "copy from tests/external/CMakeLists.txt";
+}
+
 } // namespace
