@@ -46,7 +46,7 @@ CheckedSource Compiler::check(slvm::FileId main, const CompileOptions& options, 
   CheckedSource checked;
   if (!builtins_error_.empty()) diags.error({}, "in the built-in functions: " + builtins_error_);
   checked.text = preprocess(main, options, sources, diags);
-  if (diags.has_errors()) return checked; // text is missing: what would follow from that is no news
+  if (diags.has_true_errors()) return checked; // text is missing: what would follow from that is no news
   checked.unit = parse(lex(checked.text, diags), diags);
   analyse(checked.unit, builtins_, diags);
   explain_expansions(checked.text, diags);

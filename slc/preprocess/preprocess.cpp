@@ -131,6 +131,7 @@ private:
   std::map<std::string, FileId, std::less<>> file_ids_;
   std::vector<std::string> open_files_;
   std::map<std::string, std::string> texts_; // included files, normalised
+  std::set<std::string> system_files_;       // those that -MM leaves out
   size_t include_count_ = 0, expansion_count_ = 0;
   bool open_conditional_ = false; // reported
   std::set<std::pair<FileId, size_t>> definition_lines_;
@@ -172,12 +173,18 @@ bool State::locate(const std::string& name, bool system, SourceRange where, std:
   } else {
     folders.push_back("");
   }
+  size_t own = folders.size();
+  if (!name.starts_with("/"))
+    for (const std::string& dir : options_.system_dirs)
+      folders.push_back(dir.ends_with('/') ? dir : dir + "/");
   for (const std::string& folder : folders) {
     path = folder + name;
     if (texts_.contains(path)) return true;
     std::optional<std::string> text = options_.read(path);
     if (!text) continue;
-    out_.dependencies.push_back({path, system});
+    bool from_system = &folder >= folders.data() + own || system_files_.contains(open_files_.back());
+    if (from_system) system_files_.insert(path);
+    out_.dependencies.push_back({path, from_system});
     keep(path, *text, where);
     return true;
   }

@@ -26,6 +26,7 @@ inline constexpr std::string_view kStandardFolder = "<anemone>/";
 
 struct PreprocessOptions {
   std::vector<std::string> include_dirs; ///< in search order, after the including file's own folder for "..."
+  std::vector<std::string> system_dirs;  ///< searched next: what is found there, -MM leaves out
   std::vector<std::string> defines;      ///< NAME or NAME=VALUE
   std::vector<std::string> undefines;    ///< win over defines, in any order
   FileReader read = read_file;
@@ -34,7 +35,7 @@ struct PreprocessOptions {
 
 struct Dependency {
   std::string path;
-  bool system = false; ///< included with <...>
+  bool system = false; ///< found in a system folder, or included from such a file
 };
 
 /// A stretch of PreprocessedText::text that begins at `offset`.

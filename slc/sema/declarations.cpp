@@ -30,7 +30,7 @@ void Checker::check_unit() {
     check_shader(*d.shader);
   }
   scopes_.leave();
-  if (!in_library_ && !diags_.has_errors()) usage_.report(diags_);
+  if (!in_library_ && !diags_.has_true_errors()) usage_.report(diags_);
 }
 
 Variable* Checker::global_variable(Global g) {

@@ -18,15 +18,16 @@ std::string escaped(std::string_view name) {
 
 } // namespace
 
-std::string dependency_rule(const std::vector<std::string>& targets, const std::string& source,
+std::string make_names(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names)
+    out += (out.empty() ? "" : " ") + escaped(name);
+  return out;
+}
+
+std::string dependency_rule(const std::string& targets, const std::string& source,
                             const std::vector<Dependency>& dependencies, bool with_system) {
-  std::string rule;
-  for (const std::string& target : targets) {
-    if (!rule.empty()) rule += ' ';
-    rule += escaped(target);
-  }
-  rule += ": ";
-  rule += escaped(source);
+  std::string rule = fmt::format("{}: {}", targets, escaped(source));
   for (const Dependency& d : dependencies)
     if (with_system || !d.system) rule += fmt::format(" \\\n  {}", escaped(d.path));
   rule += '\n';

@@ -5,8 +5,10 @@
 
 namespace slc {
 
-/// `targets: source header...`, long lists on several lines, blanks in names escaped.
-std::string dependency_rule(const std::vector<std::string>& targets, const std::string& source,
+/// Names of files as a make rule has them: separated by blanks, and blanks in them escaped.
+std::string make_names(const std::vector<std::string>& names);
+/// `targets: source header...`, long lists on several lines. `targets` stand as they are.
+std::string dependency_rule(const std::string& targets, const std::string& source,
                             const std::vector<Dependency>&, bool with_system);
 
 /// The preprocessed text with `#line` directives wherever lines were left out.

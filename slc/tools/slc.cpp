@@ -173,13 +173,13 @@ int Run::write_dependencies(const std::string& source, const slc::PreprocessedTe
                             const std::vector<std::string>& targets) {
   std::string stem = (fs::path(options_.output_dir) / fs::path(source).stem()).string();
   std::vector<std::string> names = targets;
-  if (!options_.dependency_target.empty()) names = {options_.dependency_target};
   if (names.empty())
     names = {options_.output.empty() || options_.dependencies_only ? stem + ".slo" : options_.output};
   std::string path = options_.dependency_file;
   if (path.empty())
     path = options_.dependencies_only ? "-" : fs::path(names.front()).replace_extension(".d").string();
-  return emit(path, slc::dependency_rule(names, source, text.dependencies, options_.system_dependencies));
+  std::string head = options_.dependency_target.empty() ? slc::make_names(names) : options_.dependency_target;
+  return emit(path, slc::dependency_rule(head, source, text.dependencies, options_.system_dependencies));
 }
 
 // To a file, or with "-" to standard output.

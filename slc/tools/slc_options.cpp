@@ -102,11 +102,11 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
                  "Define the macros of another compiler: prman, 3delight, aqsis, pixie, bmrt");
   app.add_flag("-E", o.preprocess_only, "Preprocess only, to standard output or -o");
   app.add_flag("-M", f.m, "Print a make rule with all included files instead of compiling");
-  app.add_flag("--MM", f.mm, "-MM: the same without files included by <>");
+  app.add_flag("--MM", f.mm, "-MM: the same without files from the folders of SLC_INCLUDE");
   app.add_flag("--MD", f.md, "-MD: write the rule beside the output");
-  app.add_flag("--MMD", f.mmd, "-MMD: the same without files included by <>");
+  app.add_flag("--MMD", f.mmd, "-MMD: the same without files from the folders of SLC_INCLUDE");
   app.add_option("--MF", o.dependency_file, "-MF FILE: write the rule to FILE");
-  app.add_option("--MT", o.dependency_target, "-MT NAME: the target of the rule");
+  app.add_option("--MT", o.dependency_target, "-MT NAMES: the target of the rule, as it stands");
   app.add_option("-O", o.compile.optimise, "Optimise: 0 not at all, 1 cheaply, 2 fully (default)")
       ->check(CLI::Range(0, 2));
   app.add_option("--dump", o.dump, "Print a stage instead of writing files: ast, ir or bytecode")
@@ -197,7 +197,7 @@ std::optional<int> apply(ToolOptions& o, const Flags& f) {
   }
   if (const char* folders = std::getenv("SLC_INCLUDE"))
     for (std::string& folder : split_path(folders))
-      o.compile.preprocess.include_dirs.push_back(std::move(folder));
+      o.compile.preprocess.system_dirs.push_back(std::move(folder));
   o.dependencies_only = f.m || f.mm;
   o.dependencies = f.md || f.mmd;
   o.system_dependencies = !f.mm && !f.mmd;

@@ -20,6 +20,7 @@ Diagnostic& Diagnostics::warning(SourceRange where, std::string_view name, std::
   if (no_warnings || disabled.contains(name) || silenced_.contains({where.file, where.line})) return scrap_;
   if (warnings_are_errors) {
     Diagnostic& d = error(where, std::move(text));
+    ++promoted_;
     d.warning_name = fmt::format("error={}", name);
     return d;
   }

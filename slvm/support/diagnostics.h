@@ -61,6 +61,8 @@ public:
   void silence_line(FileId file, uint32_t line);
 
   bool has_errors() const { return error_count_ > 0; }
+  /// The same without warnings that `warnings_are_errors` made errors: something cannot be understood.
+  bool has_true_errors() const { return error_count_ > promoted_; }
   uint32_t error_count() const { return error_count_; }
   /// Calls f(Diagnostic&) for each of those kept, to add to them.
   template <class F> void for_each(F&& f) {
@@ -77,8 +79,8 @@ public:
 private:
   std::vector<Diagnostic> list_;
   std::set<std::pair<FileId, uint32_t>> silenced_;
-  Diagnostic scrap_; // receives notes for diagnostics that were dropped
-  uint32_t error_count_ = 0;
+  Diagnostic scrap_;                        // receives notes for diagnostics that were dropped
+  uint32_t error_count_ = 0, promoted_ = 0; // all of them, and those that were warnings
 };
 
 /// The text form shown above, ready for stderr. `colour`: ANSI colours for a terminal.

@@ -1,9 +1,7 @@
-// The programs in the documents are true: every ```rsl block of docs/*.md is compiled. Comments "// error:
-// text" and
-// "// warning: text" in a block say what the compiler says of their line; anything else is a failure. A block
-// marked
-// ```rsl statements stands in a surface of its own. In warnings.md, whose table has its own test, only errors
-// count.
+// The programs in the documents are true: every ```rsl block of docs/*.md is compiled. Comments
+// "error: text" and "warning: text" in a block say what the compiler says of their line; anything else is a
+// failure. A block marked ```rsl statements stands in a surface of its own. In warnings.md, whose table has
+// its own test, only errors count. And docs/embedding.md shows the program of tests/external as it is.
 #include "slc/compiler.h"
 
 #include <algorithm>

@@ -75,19 +75,22 @@ TEST(Preprocess, undefine_wins_over_define) {
 TEST(Preprocess, searches_own_folder_then_include_folders) {
   Front front;
   front.options.preprocess.include_dirs = {"first", "second/"};
+  front.options.preprocess.system_dirs = {"third"};
   front.files["first/a.h"] = "#include \"b.h\"\n";
   front.files["first/b.h"] = "beside\n";
   front.files["second/b.h"] = "elsewhere\n";
-  slc::PreprocessedText text = front.preprocess("#include <a.h>\n#include <second.h>\n");
+  front.files["third/c.h"] = "#include \"d.h\"\n";
+  front.files["third/d.h"] = "last\n";
+  slc::PreprocessedText text = front.preprocess("#include <a.h>\n#include <second.h>\n#include \"c.h\"\n");
   EXPECT_NE(text.text.find("beside"), std::string::npos);
-  ASSERT_EQ(text.dependencies.size(), 2u);
+  ASSERT_EQ(text.dependencies.size(), 4u);
   EXPECT_EQ(text.dependencies[0].path, "first/a.h");
-  EXPECT_TRUE(text.dependencies[0].system);
-  EXPECT_FALSE(text.dependencies[1].system);
-  EXPECT_EQ(
-      front.messages(),
-      "main.sl:2:10: error: cannot find 'second.h'; searched in 'first/', 'second/' (-I adds a folder)\n"
-      "    2 | #include <second.h>\n      |          ^~~~~~~~~~\n");
+  EXPECT_EQ(text.dependencies[2].path, "third/c.h");
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(text.dependencies[i].system, i >= 2) << i;
+  EXPECT_EQ(front.messages(), "main.sl:2:10: error: cannot find 'second.h'; searched in 'first/', 'second/', "
+                              "'third/' (-I adds a folder)\n"
+                              "    2 | #include <second.h>\n      |          ^~~~~~~~~~\n");
 }
 
 TEST(Preprocess, stringizing_and_pasting) {
