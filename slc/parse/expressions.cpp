@@ -302,6 +302,16 @@ ExprPtr Parser::parse_string() {
 ExprPtr Parser::parse_parenthesised() {
   slvm::SourceRange open = current().range;
   advance();
+  bool type = at(TokenKind::kIdentifier) && type_of_word(current().text) != Type::kVoid;
+  if (type && peek().kind == TokenKind::kRightParen) { // `(float) x`
+    report(diags_, Msg::kCast, open, current().text);
+    auto cast = std::make_unique<CastExpr>(open);
+    cast->target = type_of_word(current().text);
+    advance();
+    advance();
+    cast->operand = parse_unary();
+    return cast;
+  }
   std::vector<ExprPtr> elements = parse_expression_list();
   expect_close(TokenKind::kRightParen, "')'", open);
   slvm::SourceRange range = join(open, last_range());
@@ -353,6 +363,14 @@ ExprPtr Parser::parse_name() {
     if (!at(TokenKind::kLeftBracket)) return e;
     reject_second_index();
     return broken_expression(e->range);
+  }
+  bool argument =
+      at(TokenKind::kNumber) || at(TokenKind::kString) ||
+      (at(TokenKind::kIdentifier) && !at_foreign_operator() && !is_statement_word(current().text));
+  if (argument && current().range.line == name.range.line && !slvm::shadeop_overloads(name.text).empty()) {
+    report(diags_, Msg::kCallParens, name.range, name.text); // `sqrt 2`
+    parse_unary();
+    return broken_expression(name.range);
   }
   auto e = std::make_unique<VariableExpr>(name.range);
   e->name = name.text;

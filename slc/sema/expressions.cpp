@@ -55,7 +55,9 @@ void Checker::report_unknown_variable(std::string_view name, SourceRange where) 
   for (int g = 0; g < slvm::kGlobalCount && !scopes_.in_function(); ++g)
     names.push_back(slvm::global_info(static_cast<Global>(g)).name);
   std::string_view near = slvm::nearest_name(name, names);
-  if (std::string_view advice = variable_hint(name); !advice.empty()) {
+  bool function = !slvm::shadeop_overloads(name).empty() || !scopes_.functions(name).empty();
+  if (std::string_view advice = variable_hint(name); !advice.empty() || function) {
+    if (function) advice = "it is a function, whose arguments stand in parentheses";
     report(diags_, Msg::kUnknownVariableHint, where, name, advice);
   } else if (!near.empty()) {
     report(diags_, Msg::kUnknownVariableNear, where, name, near).fixits.push_back({where, std::string(near)});

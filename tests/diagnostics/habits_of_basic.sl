@@ -21,3 +21,11 @@ surface quotes(string a = 'wood'; string b = “wood”) // expect-error: string
 {
   Ci = texture(a) – texture(b) × 2; // expect-error: '–' is a character of typography: write '-' // expect-error: '×' is a character of typography: write '*'
 }
+surface calls(string map = "a.tex")
+{
+  float x = sqrt 4; // expect-error: the arguments of 'sqrt' stand in parentheses: sqrt(...)
+  normal Nn = normalize N; // expect-error: the arguments of 'normalize' stand in parentheses
+  Ci = texture map; // expect-error: the arguments of 'texture' stand in parentheses
+  Ci = (color) P * (float) x; // expect-error: a cast has no parentheses around the type: write color // expect-error: write float
+  Ci = ambient; // expect-error: there is no variable 'ambient': it is a function
+}
