@@ -1,6 +1,7 @@
 // The steps of a compilation, one after another.
 #include "slc/compiler.h"
 
+#include "slc/diag/messages.h"
 #include "slc/embedded.h"
 #include "slc/lex/lexer.h"
 #include "slc/parse/parse.h"
@@ -50,6 +51,8 @@ CheckedSource Compiler::check(slvm::FileId main, const CompileOptions& options, 
   checked.unit = parse(lex(checked.text, diags), diags);
   analyse(checked.unit, builtins_, diags);
   explain_expansions(checked.text, diags);
+  if (checked.unit.shaders.empty() && !diags.has_true_errors())
+    report(diags, Msg::kNoShader, slvm::SourceRange{main, 0, 0, 0});
   return checked;
 }
 

@@ -11,6 +11,6 @@ surface s(float k = 1; string name = "")
   a = a % b; // expect-error: no operator '%': write mod(a, b)
   string t = "a\qb"; // expect-warning: unknown escape '\q'
   string u = "open; // expect-error: does not end on this line
-#pragma nonsense // expect-warning: #pragma nonsense is ignored
+#pragma nonsense // expect-warning: #pragma nonsense is not known here
 #pragma annotation "only one" // expect-warning: needs two strings
 }
