@@ -99,6 +99,11 @@ void Checker::report_unknown_function(const CallExpr& call) {
         .notes.push_back({v->where, "declared here"});
     return;
   }
+  if (std::string_view header = header_defining(call.name); !header.empty() && !in_library_) {
+    report(diags_, Msg::kUnknownFunctionHint, call.name_range, call.name,
+           fmt::format("#include \"{}\" brings it", header));
+    return;
+  }
   std::vector<std::string_view> names = scopes_.visible_functions();
   for (const slvm::ShadeopInfo& info : slvm::shadeops())
     if ((info.flags & slvm::kInternal) == 0) names.push_back(info.name);

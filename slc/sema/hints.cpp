@@ -1,6 +1,10 @@
 // The table of names that are common elsewhere.
 #include "slc/sema/hints.h"
 
+#include "slc/embedded.h"
+
+#include <fmt/format.h>
+
 namespace slc {
 namespace {
 
@@ -33,7 +37,6 @@ constexpr Hint kHints[] = {
     {"fwidth", "use abs(Du(x)*du) + abs(Dv(x)*dv)"},
     {"tex2D", "use texture(name, s, t)"},
     {"rand", "use random()"},
-    {"snoise", "include noises.h, or write 2*noise(p) - 1"},
     {"luminance", "use comp() and the weights of your color space"},
     {"rgb2hsv", "use ctransform(\"rgb\", \"hsv\", c)"},
     {"hsv2rgb", "use ctransform(\"hsv\", \"rgb\", c)"},
@@ -61,9 +64,6 @@ constexpr Hint kHints[] = {
     {"getattribute", "use attribute(name, variable)"},
     {"getmessage", "use surface(), displacement() or lightsource()"},
     {"setmessage", "declare an 'output' parameter"},
-    {"filterwidth", "include filterwidth.h"},
-    {"fBm", "include noises.h"},
-    {"turbulence", "include noises.h"},
 };
 
 constexpr std::string_view kAsString = "names of spaces are strings and stand in quotes";
@@ -95,6 +95,21 @@ constexpr Hint kVariables[] = {
 std::string_view function_hint(std::string_view name) {
   for (const Hint& hint : kHints)
     if (hint.name == name) return hint.advice;
+  return {};
+}
+
+// A definition begins its line with a type, or is a macro.
+std::string_view header_defining(std::string_view name) {
+  std::string call = fmt::format(" {}(", name);
+  for (const EmbeddedText& header : standard_headers())
+    for (size_t at = header.text.find(call); at != std::string_view::npos;
+         at = header.text.find(call, at + 1)) {
+      size_t line = header.text.rfind('\n', at) + 1; // npos + 1 is 0
+      std::string_view before = header.text.substr(line, at - line);
+      for (std::string_view word :
+           {"float", "color", "point", "vector", "normal", "matrix", "void", "#define"})
+        if (before == word) return header.name;
+    }
   return {};
 }
 

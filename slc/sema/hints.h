@@ -9,7 +9,9 @@ namespace slc {
 
 /// What to write instead of a call of `name`; empty when nothing is known.
 std::string_view function_hint(std::string_view name);
-/// The same for variables.
+/// The standard header that defines a function or a macro of this name; empty when none does.
+std::string_view header_defining(std::string_view name);
+/// The same as function_hint for variables.
 std::string_view variable_hint(std::string_view name);
 
 /// A copy of a number or string, placed at `range`.

@@ -21,6 +21,10 @@ surface arrays(float k = 1) {
   w["a"] = 1; // expect-error: a string cannot be used where a float is needed
   Ci = w * 2 + x; // expect-error: operator '*' cannot take (float[3], float); arrays are used element by element
 }
+surface headers(float k = 1) {
+  Ci = snoise(P) * filterwidth(s); // expect-error: there is no function 'snoise': #include "noises.h" brings it // expect-error: #include "filterwidth.h" brings it
+  Ci += pulse(0, k, s, t); // expect-error: #include "patterns.h" brings it
+}
 struct Hit { float distance; color c; }; // expect-error: 'struct' belongs to RSL 2.0, which is not supported
 surface structs(float k = 1) {
   Hit h;

@@ -62,6 +62,14 @@ TEST_F(Switches, warnings_as_errors) {
   EXPECT_TRUE(exists("w.slo"));
 }
 
+TEST_F(Switches, warnings_as_errors_in_json) {
+  EXPECT_EQ(run("-q -Werror --diagnostics=json w.sl"), 1);
+  EXPECT_NE(output_.find("{\"severity\":\"error\",\"message\":\"variable 'nothing' is not "
+                         "used\",\"warning\":\"error=unused\","),
+            std::string::npos)
+      << output_;
+}
+
 TEST_F(Switches, nolint_silences_the_next_statement_only) {
   write("n.sl", "surface n() {\n#pragma nolint\n  float a =\n    1;\n  float b = 1;\n}\n");
   EXPECT_EQ(run("-q n.sl"), 0);
