@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -69,6 +70,10 @@ bool has_word(const char* p, const char* end) {
   return p != end && !comment;
 }
 
+constexpr std::string_view kDirectives[] = {"include", "define", "undef", "if",    "ifdef",
+                                            "ifndef",  "elif",   "else",  "endif", "error",
+                                            "warning", "line",   "pragma"};
+
 enum class DirectiveFix { kNone, kInsertLine };
 
 // Mends one directive line in place. kInsertLine: it is a line marker that lacks the word "line" after the
@@ -86,7 +91,11 @@ DirectiveFix fix_directive(char* begin, char* end, std::string_view& name) {
     ++p;
   name = {word, static_cast<size_t>(p - word)};
   if (name == "endif" || name == "else") blank_until_comment(p, end);
-  if (name == "pragma" && !has_word(p, end)) std::fill(begin, p, ' '); // Wave crashes on it
+  if (name == "pragma" && !has_word(p, end)) { // Wave crashes on it
+    std::fill(begin, p, ' ');
+    name = {};
+    return DirectiveFix::kNone;
+  }
   if (!name.empty() || p == end || !is_digit(*p)) return DirectiveFix::kNone;
   // A marker: `# number "file" flags`; the flags go.
   while (p != end && is_digit(*p))
@@ -121,6 +130,12 @@ std::string normalise_source(std::string_view source, OpenEnds* open) {
       if (directive == "if" || directive == "ifdef" || directive == "ifndef")
         conditionals.emplace_back(number, directive);
       if (directive == "endif" && !conditionals.empty()) conditionals.pop_back();
+      bool known = directive.empty() || std::find(std::begin(kDirectives), std::end(kDirectives),
+                                                  directive) != std::end(kDirectives);
+      if (!known && conditionals.empty()) {
+        if (open) open->unknown.emplace_back(number, directive);
+        std::fill(line, line_end, ' ');
+      }
       if (fix == DirectiveFix::kInsertLine) {
         size_t hash = text.find('#', begin);
         out.append(text, begin, hash + 1 - begin);

@@ -86,6 +86,13 @@ public:
   std::string normalise(FileId file, std::string_view text) {
     OpenEnds open;
     std::string clean = normalise_source(text, &open);
+    for (const auto& [line, word] : open.unknown) {
+      constexpr std::string_view kUsual[] = {"include", "define", "undef", "ifdef",
+                                             "ifndef",  "elif",   "endif", "pragma"};
+      std::string_view near = slvm::nearest_name(word, kUsual);
+      report(diags_, Msg::kUnknownDirective, word_range({file, line, 1}, word.size() + 1), word,
+             near.empty() ? "" : fmt::format("; did you mean '#{}'?", near));
+    }
     if (open.comment) report(diags_, Msg::kOpenComment, word_range({file, open.comment, 0}, 0));
     if (open.conditional && !open.comment) {
       report(diags_, Msg::kOpenConditional,
@@ -134,6 +141,7 @@ private:
   std::set<std::string> system_files_;       // those that -MM leaves out
   size_t include_count_ = 0, expansion_count_ = 0;
   bool open_conditional_ = false; // reported
+  bool lost_if_ = false;          // an #if that was reported: its #else and #endif are no news
   std::set<std::pair<FileId, size_t>> definition_lines_;
   std::map<std::string, SourceRange, std::less<>> definitions_; // of macros, the newest of each name
   Place use_start_, use_end_;                                   // the outermost macro call being expanded
@@ -270,7 +278,18 @@ template <class Exception> void State::report_exception(const Exception& e, bool
   std::string_view text = e.description();
   size_t colon = text.find(": "); // "error: ", "fatal error: "
   if (colon != std::string_view::npos) text.remove_prefix(colon + 2);
+  std::string_view subject = text.substr(std::min(text.size(), text.rfind(": ") + 2)); // what it is about
   if (open_conditional_ && text.find("#endif") != std::string_view::npos) return;
+  if (text.starts_with("the #if for this directive is missing")) {
+    if (!std::exchange(lost_if_, false)) report(diags_, Msg::kStrayConditional, where, subject);
+    return;
+  }
+  lost_if_ |= text.find("expression") != std::string_view::npos || subject.starts_with("#if");
+  if (text.starts_with("ill formed #include")) return void(report(diags_, Msg::kBadInclude, where));
+  if (text.starts_with("too few macro"))
+    return void(report(diags_, Msg::kMacroArguments, where, subject, "too few"));
+  if (text.starts_with("too many macro"))
+    return void(report(diags_, Msg::kMacroArguments, where, subject, "too many"));
   bool warning = !lost && e.get_severity() < wave::util::severity_error;
   report(diags_, warning ? Msg::kPreprocessorWarning : Msg::kPreprocessor, where, text);
 }
