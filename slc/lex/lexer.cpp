@@ -99,6 +99,7 @@ private:
   mutable size_t piece_ = 0; // the one `range` found last: offsets mostly grow
   bool line_start_ = true;
   bool nolint_ = false;
+  bool skipped_ = false; // characters without meaning, since the last token
   bool unknown_pragma_reported_ = false;
 };
 
@@ -126,6 +127,7 @@ Token Lexer::make(TokenKind kind, size_t begin) const {
 }
 
 void Lexer::push(Token token) {
+  token.after_error = std::exchange(skipped_, false);
   if (nolint_) {
     token.after_nolint = true;
     diags_.silence_line(token.range.file, token.range.line);
@@ -375,6 +377,7 @@ void Lexer::lex_punctuator() {
   }
   // A run of bytes outside ASCII is one character, or a few: one message.
   bool foreign = static_cast<unsigned char>(peek()) >= 0x80;
+  skipped_ = true;
   do
     ++at_;
   while (foreign && static_cast<unsigned char>(peek()) >= 0x80);

@@ -55,6 +55,7 @@ struct Token {
   bool after_nolint = false; ///< the first token behind a `#pragma nolint`
   bool is_integer = false;   ///< a number of digits only
   bool unterminated = false; ///< a string whose end is missing: reported
+  bool after_error = false;  ///< characters before it were reported and skipped
   float number = 0;
   slvm::SourceRange range;
   std::string text; ///< as spelled; of strings the value, escapes resolved

@@ -55,8 +55,8 @@ ExprPtr Parser::broken_expression(slvm::SourceRange where) const {
 ExprPtr Parser::missing_expression() {
   const Token& last = tokens_[at_ ? at_ - 1 : 0];
   bool word = at(TokenKind::kIdentifier);
-  if (last.unterminated)
-    panic_ = true; // its quote took what is missing here
+  if (last.unterminated || current().after_error)
+    panic_ = true; // what is missing here went with what was reported
   else if (word)
     fail(Msg::kStatementAsValue, current().text);
   else if (at(TokenKind::kLeftBracket))
@@ -348,6 +348,7 @@ ExprPtr Parser::parse_name() {
         expect(TokenKind::kRightBracket, "']'");
       }
       if (!take(TokenKind::kComma)) break;
+      if (at(TokenKind::kRightParen)) report(diags_, Msg::kExpectedExpression, current().range, "')'");
     }
     expect_close(TokenKind::kRightParen, "')' or ','", open);
     call->range = join(call->range, last_range());

@@ -45,7 +45,7 @@ bool Parser::expect_close(TokenKind kind, std::string_view what, slvm::SourceRan
   if (take(kind)) return true;
   if (panic_) return false;
   const Token& last = tokens_[at_ ? at_ - 1 : 0];
-  if (last.unterminated) { // its quote took what is missing here
+  if (last.unterminated || current().after_error) { // what is missing here went with what was reported
     panic_ = true;
     return false;
   }
@@ -64,6 +64,8 @@ bool Parser::expect_close(TokenKind kind, std::string_view what, slvm::SourceRan
     panic_ = !at(TokenKind::kRightBrace) && !at(TokenKind::kIdentifier);
     return false;
   }
+  bool value = at(TokenKind::kIdentifier) || at(TokenKind::kNumber) || at(TokenKind::kLeftParen);
+  if (ends_statement && value) what = "';' or an operator";
   slvm::Diagnostic* d = fail(Msg::kExpected, what, describe_current());
   if (d && open.valid()) d->notes.push_back({open, "for this one"});
   return false;

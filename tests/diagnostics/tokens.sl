@@ -5,8 +5,8 @@ surface s(float k = 1; string name = "")
   float b = 0x1f; // expect-error: no hexadecimal numbers
   float c = 0s; // expect-error: '0s' is not a number
   float d = 1e99; // expect-warning: does not fit a float
-  float e = a @ b; // expect-error: '@' has no meaning // expect-error: expected ';', found 'b'
-  float é = 1; // expect-error: a character outside ASCII // expect-error: expected an expression, found '='
+  float e = a @ b; // expect-error: '@' has no meaning
+  float é = 1; // expect-error: a character outside ASCII
   a = a + +b; // expect-warning: '+' sign has no effect
   a = a % b; // expect-error: no operator '%': write mod(a, b)
   string t = "a\qb"; // expect-warning: unknown escape '\q'

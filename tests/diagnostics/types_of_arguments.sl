@@ -17,5 +17,7 @@ surface arguments(float k = 1; string base = "wood") {
   c = k > 1 ? Cs; // expect-error: expected ':', found ';'
   matrix m = (1, 0, 0, 0, 1, 0, 0, 0, 1); // expect-error: 9 values in parentheses: a triple has 3, a matrix 16
   x = m[0]; // expect-error: 'm' is no array; its elements are comp(m, row, column)
+  x = max(1, 2,); // expect-error: expected an expression, found ')'
+  c = k diffuse(N); // expect-error: expected ';' or an operator, found 'diffuse'
   print("x"); // expect-error: there is no function 'print': use printf("%f", x)
 }
