@@ -29,7 +29,9 @@ std::vector<Variable*> Parser::parse_formals(VariableKind kind, bool& broken) {
     if (skipped)
       panic_ = true; // reported
     else if (declares(at_) || (at(TokenKind::kIdentifier) && foreign_specifier(current().text)))
-      report(diags_, Msg::kExpected, current().range, "',' or ';'", describe_current());
+      report(diags_, Msg::kExpected,
+             current().range.line == last_range().line ? current().range : behind_last(), "',' or ';'",
+             describe_current());
     else
       break;
   }

@@ -143,6 +143,7 @@ private:
     advance();
     return true;
   }
+  slvm::SourceRange behind_last() const;
   slvm::SourceRange last_range() const { return tokens_[at_ ? at_ - 1 : 0].range; }
 
   /// Counts one level of nesting while it lives; too deep is an error.

@@ -55,20 +55,29 @@ bool Parser::expect_close(TokenKind kind, std::string_view what, slvm::SourceRan
     advance();
     return expect(kind, what);
   }
-  // A missing ';' is best shown behind what stands before it, and a new line goes on with the next statement.
-  if (ends_statement && current().range.line != last.range.line && last.range.valid()) {
-    slvm::SourceRange where = last.range;
-    where.column = where.end;
-    where.end = where.column + 1;
+  // What is missing at the end of a line is shown there, and a new line goes on with the next statement.
+  bool new_line = current().range.line != last.range.line && last.range.valid();
+  if (ends_statement && new_line) {
+    slvm::SourceRange where = behind_last();
     report(diags_, Msg::kExpected, where, what, describe_current()).fixits.push_back({where, ";"});
     panic_ = !at(TokenKind::kRightBrace) && !at(TokenKind::kIdentifier);
     return false;
   }
   bool value = at(TokenKind::kIdentifier) || at(TokenKind::kNumber) || at(TokenKind::kLeftParen);
   if (ends_statement && value) what = "';' or an operator";
-  slvm::Diagnostic* d = fail(Msg::kExpected, what, describe_current());
+  bool behind = new_line && kind == TokenKind::kRightParen;
+  slvm::SourceRange where = behind ? behind_last() : current().range;
+  slvm::Diagnostic* d = fail_at(Msg::kExpected, where, what, describe_current());
   if (d && open.valid()) d->notes.push_back({open, "for this one"});
   return false;
+}
+
+// The column behind the last token.
+slvm::SourceRange Parser::behind_last() const {
+  slvm::SourceRange where = last_range();
+  where.column = where.end;
+  where.end = where.column + 1;
+  return where;
 }
 
 // `surface name (`, where no statement can be meant; or the same with the parentheses forgotten.

@@ -175,6 +175,10 @@ std::vector<ExprPtr> Parser::parse_arguments() {
 bool Parser::resume_at_body(size_t header, bool is_for) {
   if (!panic_) return true;
   if (gave_up_) return false;
+  if (at(TokenKind::kIdentifier) && current().range.line != last_range().line) { // the ')' is missing
+    panic_ = false;
+    return true;
+  }
   int depth = 0, semicolons = 0;
   for (size_t i = header + 1; i + 1 < tokens_.size(); ++i) {
     TokenKind kind = tokens_[i].kind;
