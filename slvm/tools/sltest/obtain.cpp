@@ -48,8 +48,7 @@ ShaderPtr obtain_file(const Setup& setup, const std::string& name, ShaderLibrary
   if (std::none_of(sources.begin(), sources.end(), changed)) return shader;
   ShaderPtr fresh;
   if (!name.ends_with(".slo")) {
-    fresh =
-        library.find(std::filesystem::absolute(sources.front().path).string(), mode, setup.path, error);
+    fresh = library.find(std::filesystem::absolute(sources.front().path).string(), mode, setup.path, error);
     if (!fresh) return nullptr;
     if (fresh->program.name != shader->program.name) fresh = nullptr;
   }

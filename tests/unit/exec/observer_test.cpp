@@ -78,7 +78,7 @@ TEST_F(ObserverTest, ChangesNothing) {
 
 TEST_F(ObserverTest, MayLeaveOutCalls) {
   auto surface = at_level_0(kSource);
-  Watcher watcher("printf");
+  Watcher watcher("printonce"); // a printf of uniform values
   watcher.leave_out = true;
   context.observe(&watcher);
   context.shade({.surface = surface.get()}, grid);

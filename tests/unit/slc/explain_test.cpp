@@ -173,14 +173,16 @@ TEST_F(Explain, answers_for_each_shader) {
 TEST_F(Explain, explains_errors_too) {
   write("a.sl", "surface a(float rings = 1) {\n  uniform float r = rings * u;\n  Ci = r;\n}\n");
   EXPECT_EQ(run("--explain-varying r a.sl"), 1);
-  EXPECT_EQ(output_, "a.sl:2:21: error: a varying value cannot be stored in the uniform variable 'r'\n"
-                     "    2 |   uniform float r = rings * u;\n"
-                     "      |                     ^~~~~~~~~\n"
-                     "a.sl:2:29: note: 'u' is a predefined variable that varies\n"
-                     "    2 |   uniform float r = rings * u;\n"
-                     "      |                             ^\n"
-                     "surface \"a\"\n"
-                     "a.sl:2:17: 'r' is uniform\n");
+  EXPECT_EQ(output_,
+            "a.sl:2:21: error: a varying value cannot be stored in the uniform variable 'r': declare "
+            "it 'varying'\n"
+            "    2 |   uniform float r = rings * u;\n"
+            "      |                     ^~~~~~~~~\n"
+            "a.sl:2:29: note: 'u' is a predefined variable that varies\n"
+            "    2 |   uniform float r = rings * u;\n"
+            "      |                             ^\n"
+            "surface \"a\"\n"
+            "a.sl:2:17: 'r' is uniform\n");
   write("b.sl", "surface b(float rings = 1) { Ci = rings; }");
   EXPECT_EQ(run("--explain-varying rinks --explain-varying rings b.sl"), 1);
   EXPECT_EQ(output_, "slc: b.sl has no variable 'rinks'; did you mean 'rings'?\n"

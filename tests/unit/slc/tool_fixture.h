@@ -30,11 +30,14 @@ protected:
     std::filesystem::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
   }
-  /// Runs slc; the exit code. Both output streams go to output_. `environment`: assignments before the command.
+  /// Runs slc; the exit code. Both output streams go to output_. `environment`: assignments before the
+  /// command.
   int run(const std::string& arguments, const std::string& environment = "") {
     return run_program(environment + " " + SLC_PROGRAM + " " + arguments);
   }
-  int sloinfo(const std::string& arguments) { return run_program(std::string(SLOINFO_PROGRAM) + " " + arguments); }
+  int sloinfo(const std::string& arguments) {
+    return run_program(std::string(SLOINFO_PROGRAM) + " " + arguments);
+  }
   int run_program(const std::string& words) {
     std::string command = "cd '" + folder_.string() + "' && " + words + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
