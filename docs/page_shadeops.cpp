@@ -166,6 +166,7 @@ std::string function_entry(std::string_view name) {
   std::set<std::string_view> token_sets;
   bool pending = false;
   uint32_t flags = 0;
+  double most = -1; // greatest error
   for (ShadeopId id : shadeop_overloads(name)) {
     const ShadeopInfo& row = shadeop(id);
     if (row.flags & kInternal) continue;
@@ -174,9 +175,14 @@ std::string function_entry(std::string_view name) {
     if (!row.signature.token_set.empty()) token_sets.insert(row.signature.token_set);
     pending |= row.kind == ShadeopKind::kPending;
     flags |= row.flags;
+    most = std::max(most, row.ulps);
   }
   for (std::string_view doc : order)
     out += fmt::format("{}\n{}\n", declarations(by_doc[doc]), paragraph(sentence(doc, by_doc[doc].front())));
+  if (most > 0)
+    out += fmt::format("Accurate to {:g} ulp.\n\n", most);
+  else if (most == 0)
+    out += "Exact.\n\n";
   if (flags & kInIlluminance) out += "Only inside an illuminance loop.\n\n";
   if (flags & kSurfaceOnly) out += "Not in light shaders.\n\n";
   if (flags & kDerivative) out += "Looks at neighbouring points of the grid.\n\n";
@@ -220,19 +226,21 @@ std::string link(std::string_view title) {
 
 std::string shadeops_page() {
   std::string out = std::string("# Built-in functions and variables\n\n") + kGenerated;
+  out += paragraph("A function with several declarations is chosen by its arguments and by the type that is "
+                   "wanted. Where a "
+                   "declaration says `type`, it stands for several that differ in that type only. `uniform` "
+                   "parameters need a "
+                   "value that is the same at all points; `output` and `inout` ones a variable, which is "
+                   "set; `any` is a value "
+                   "of any type. `...` stands for any number of arguments of that kind, or for the optional "
+                   "arguments in the "
+                   "table below: a name and a value each. `[channel]` may be left out.") +
+         "\n";
   out +=
-      "A function with several declarations is chosen by its arguments and by the type that is wanted. Where "
-      "a "
-      "declaration\n"
-      "says `type`, it stands for several that differ in that type only. `uniform` parameters need a value "
-      "that is "
-      "the same at\n"
-      "all points; `output` and `inout` ones a variable, which is set; `any` is a value of any type. `...` "
-      "stands "
-      "for any number\n"
-      "of arguments of that kind, or for the optional arguments in the table below: a name and a value each. "
-      "`[channel]` may be\n"
-      "left out.\n\n";
+      paragraph("Accuracy is given for the worst form of a function, in units in the last place (ulp) of "
+                "the result or, where "
+                "terms cancel, of the terms. Tests hold every function to it, for every instruction set.") +
+      "\n";
   std::vector<Section> all = sections();
   out += "| section | functions |\n|---|---|\n| [Variables](#variables) | |\n";
   for (const Section& section : all) {
