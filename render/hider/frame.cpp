@@ -245,8 +245,8 @@ void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
   grid.id = hash_of(rect.x0, rect.y0, kImager);
   grid.user = nullptr;
   using slvm::Global;
-  float* planes[4] = {grid.varying(Global::kP), grid.varying(Global::kCi), grid.varying(Global::kOi),
-                      grid.varying(Global::kalpha)};
+  float* planes[6] = {grid.varying(Global::kP),     grid.varying(Global::kCi), grid.varying(Global::kOi),
+                      grid.varying(Global::kalpha), grid.varying(Global::ks),  grid.varying(Global::kt)};
   size_t pitch = grid.pitch(), k = 0;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x, ++k) {
@@ -259,6 +259,8 @@ void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
         planes[2][c * pitch + k] = p[Image::kOi + c];
       }
       planes[3][k] = p[Image::kAlpha];
+      planes[4][k] = planes[0][k] / static_cast<float>(options_.xres);
+      planes[5][k] = planes[0][pitch + k] / static_cast<float>(options_.yres);
     }
   worker.shader->image(*options_.imager, grid);
   const slvm::Planes &Ci = grid.variable(Global::kCi), &Oi = grid.variable(Global::kOi),

@@ -28,6 +28,8 @@ struct Variable {
   Detail detail = Detail::kUniform;
   bool detail_given = false;
   bool output = false;
+  bool copied =
+      false; ///< a read-only parameter or formal that is assigned to all the same: it is a local copy
   Global global = Global::kCount; ///< kGlobal: which
   /// Parameter default or local initialiser, of the variable's type; null if none. For arrays an
   /// ArrayInitExpr, or for parameters and locals a single value for every element. Not for globals and
@@ -65,6 +67,8 @@ struct Shader {
   std::vector<Variable*> params; ///< all with an init
   std::unique_ptr<BlockStmt> body;
   std::vector<Annotation> annotations;
+  /// Predefined variables it assigns to though they are read-only: it works on copies.
+  std::set<slvm::Global> copied;
 };
 
 /// A function or shader of the file itself, not nested: one of the two is set.

@@ -31,6 +31,7 @@ private:
   void lower_init(const Variable& param, slvm::Param& out);
   const Expr* spaceless_default(const Variable& param) const;
   void begin_variables();
+  void begin_copies();
   void store_changed(bool outputs_only);
   uint32_t slot_of(const std::string& name, Type type, uint32_t elements, bool parameter, bool varying);
   uint32_t global_slot(Global g);

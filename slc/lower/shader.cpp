@@ -68,6 +68,7 @@ void Lowering::lower_init(const Variable& param, slvm::Param& out) {
   values_.assign(variable_types_.size(), ir::kNoValue);
   ir::Region r = region([&] {
     values_[random_counter_] = b_.number(0);
+    uniform_wanted_ = !out.varying;
     Values results;
     if (const auto* list = as<ArrayInitExpr>(param.init.get())) {
       for (const ExprPtr& e : list->elements)
@@ -77,6 +78,7 @@ void Lowering::lower_init(const Variable& param, slvm::Param& out) {
     }
     while (results.size() < out.elements)
       results.push_back(zero(param.type));
+    uniform_wanted_ = false;
     b_.yield(std::move(results));
   });
   out.init = static_cast<int32_t>(m_.inits.size());
@@ -202,10 +204,34 @@ void Lowering::begin_variables() {
     global_index_[g] = new_index(info.type);
     begin(global_index_[g], global_slot(static_cast<Global>(g)));
   }
+  begin_copies();
   outputs_from_ = stored_back_.size();
   for (const Variable* v : shader_.params)
     if (v->output && v->array_length == kNotArray) begin(index_of(*v), param_slots_.at(v));
   initial_ = values_;
+}
+
+// What is read-only and changed all the same: variables of the shader's own, with these values at first.
+void Lowering::begin_copies() {
+  for (Global g : shader_.copied) {
+    const size_t index = new_index(slvm::global_info(g).type);
+    global_index_[static_cast<size_t>(g)] = index;
+    values_[index] = b_.slot(global_slot(g));
+  }
+  for (const Variable* v : shader_.params) {
+    if (!v->copied) continue;
+    if (v->array_length == kNotArray) {
+      const size_t index = index_of(*v);
+      values_[index] = b_.slot(param_slots_.at(v));
+      continue;
+    }
+    const uint32_t given = arrays_.at(v), own = b_.add_array(v->type, static_cast<uint32_t>(v->array_length));
+    for (int i = 0; i < v->array_length; ++i) {
+      const ValueId at = b_.number(static_cast<float>(i));
+      b_.array_store(own, at, b_.array_load(given, at));
+    }
+    arrays_[v] = own;
+  }
 }
 
 void Lowering::lower_body() {

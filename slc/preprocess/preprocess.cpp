@@ -340,8 +340,10 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
   }
   template <class Context, class Token, class Container, class Iterator>
   bool expanding_function_like_macro(const Context&, const Token&, const std::vector<Token>&,
-                                     const Container&, const Token& call, const std::vector<Container>&,
-                                     const Iterator&, const Iterator& end) {
+                                     const Container&, const Token& call,
+                                     const std::vector<Container>& arguments, const Iterator&,
+                                     const Iterator& end) {
+    if (!arguments.empty() && defines_function(arguments[0], end)) return true;
     state->note_use(state->place(call.get_position()), state->place(end->get_position()),
                     call.get_value().c_str());
     return false;
@@ -361,6 +363,24 @@ struct Hooks : wave::context_policies::default_preprocessing_hooks {
   }
 
 private:
+  // `float sqr (float x) {`: a function of a macro's name, which the definition hides. Its calls are still
+  // those of the macro, which mostly means the same.
+  template <class Container, class Iterator>
+  static bool defines_function(const Container& first_argument, Iterator end) {
+    constexpr std::string_view kBegins[] = {"float",  "color",  "point",   "vector",  "normal",
+                                            "matrix", "string", "uniform", "varying", "output"};
+    auto word = first_argument.begin();
+    while (word != first_argument.end() && IS_CATEGORY(*word, wave::WhiteSpaceTokenType))
+      ++word;
+    if (word == first_argument.end()) return false;
+    const std::string_view text(word->get_value().c_str(), word->get_value().size());
+    if (std::find(std::begin(kBegins), std::end(kBegins), text) == std::end(kBegins)) return false;
+    do
+      ++end;
+    while (IS_CATEGORY(*end, wave::WhiteSpaceTokenType) || IS_CATEGORY(*end, wave::EOLTokenType));
+    return wave::token_id(*end) == wave::T_LEFTBRACE;
+  }
+
   // The warnings behind which Wave's state is sound without the exception.
   static bool goes_on(const wave::preprocess_exception& e) {
     switch (e.get_errorcode()) {

@@ -102,7 +102,7 @@ private:
   void finish_cast(ExprPtr&);
   ExprPtr space_cast(CastExpr&);
   void finish_array_init(ArrayInitExpr&, const Variable&);
-  bool check_writable(const Variable&, SourceRange where);
+  bool check_writable(Variable&, SourceRange where);
   void report_bad_operands(const OperatorExpr&, const std::vector<Argument>&);
 
   // convert.cpp

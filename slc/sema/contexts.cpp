@@ -72,14 +72,7 @@ bool declared_uniform(const Variable& v) {
   return v.detail_given && v.detail == Detail::kUniform;
 }
 bool always_uniform(const Variable& v) {
-  return declared_uniform(v) || (v.kind == VariableKind::kParameter && !v.detail_given);
-}
-
-bool is_random(const Expr* e) {
-  if (const auto* conversion = as<ConvertExpr>(e)) e = conversion->operand.get();
-  const auto* call = as<CallExpr>(e);
-  return call && !call->function && call->shadeop != kNoShadeop &&
-         slvm::shadeop(call->shadeop).name == "random";
+  return declared_uniform(v) || (v.kind == VariableKind::kParameter && !v.detail_given && !v.copied);
 }
 
 class ContextWalk {
@@ -135,7 +128,7 @@ private:
   Variation read(const Variable* v, SourceRange where);
   void store(Expr& place, Variation variation, SourceRange where);
   void store_variable(VarState& state, const Variation& variation, SourceRange where, std::string_view name);
-  static bool draws_once(const Expr* value, const Variable& target);
+  Variation value_for(Expr* e, bool once);
 
   VarState& state(const Variable& v);
   /// Makes something vary as much as `more`, too; the first cause stays.
@@ -218,6 +211,7 @@ private:
   int illuminance_ = 0, emission_ = 0; // loops around this point, callers' included
   Variation old_value_;                // of the target of a compound assignment
   bool changed_ = false, reporting_ = false, gave_up_ = false;
+  bool drawing_once_ = false; // random() is uniform here
 };
 
 void ContextWalk::walk_shader() {
@@ -227,8 +221,8 @@ void ContextWalk::walk_shader() {
   controls_.clear();
   for (Variable* v : shader_.params) {
     VarState& s = state(*v);
-    Variation initial = value(v->init.get());
-    if (initial && s.variation == kUniform && !draws_once(v->init.get(), *v))
+    Variation initial = value_for(v->init.get(), always_uniform(*v));
+    if (initial && s.variation == kUniform)
       complain_of(initial.why, Msg::kVaryingToUniform, v->init->range, v->name);
   }
   statement(shader_.body.get());
@@ -284,7 +278,7 @@ void ContextWalk::declare(Variable& v) {
   VarState& s = state(v);
   s.hard = hard_;
   s.soft = soft_;
-  if (v.init && !draws_once(v.init.get(), v)) store_variable(s, value(v.init.get()), v.init->range, v.name);
+  if (v.init) store_variable(s, value_for(v.init.get(), always_uniform(v)), v.init->range, v.name);
 }
 
 void ContextWalk::loop_body(const Stmt& loop_stmt, Stmt* body) {
@@ -315,8 +309,7 @@ void ContextWalk::jump(const JumpStmt& s) {
 
 void ContextWalk::leave(ReturnStmt& s) {
   bool uniform_function = frame_.function && frame_.function->result_uniform;
-  Variation variation;
-  if (!uniform_function || !is_random(s.value.get())) variation = value(s.value.get());
+  Variation variation = value_for(s.value.get(), uniform_function || drawing_once_);
   bool some_lanes = control() > frame_.control; // only
   const Cause* outermost = some_lanes ? control_from(frame_.control) : nullptr;
   std::string_view name = frame_.function ? std::string_view(frame_.function->name) : "";
@@ -454,12 +447,15 @@ void ContextWalk::check_global(const Variable& v, bool store, SourceRange where)
     else if (of_lights && shader_.kind != ShaderKind::kSurface)
       advice = "; it belongs to lights and to light loops of surfaces";
     complain(Msg::kGlobalNotHere, where, v.name, kind, advice);
+  } else if (store && access == 'r' && of_lights) {
+    complain(Msg::kLightReadOnly, where, v.name, kind);
   } else if (store && access == 'r') {
     complain(Msg::kGlobalReadOnly, where, v.name, kind);
+    shader_.copied.insert(v.global);
   } else if (of_lights && !light && illuminance_ == 0) {
     complain(Msg::kOutsideIlluminance, where, v.name);
   } else if (light && v.global == Global::kL && emission_ == 0) {
-    complain(Msg::kOutsideEmission, where, v.name);
+    complain(store ? Msg::kStrayLightVector : Msg::kOutsideEmission, where, v.name);
   }
 }
 
@@ -496,22 +492,21 @@ void ContextWalk::store(Expr& place, Variation variation, SourceRange where) {
   if (state(*v).variation) place.detail = Detail::kVarying;
 }
 
-// random() straight into a declared uniform is drawn once for the grid.
-bool ContextWalk::draws_once(const Expr* e, const Variable& target) {
-  return always_uniform(target) && is_random(e);
+// once: what is computed goes into something uniform, for which random() is drawn once for the grid.
+Variation ContextWalk::value_for(Expr* e, bool once) {
+  const bool outer = std::exchange(drawing_once_, once);
+  Variation variation = value(e);
+  drawing_once_ = outer;
+  return variation;
 }
 
 Variation ContextWalk::assign(AssignExpr& e) {
   const Variable* v = nullptr;
   if (auto* name = as<VariableExpr>(e.target.get())) v = name->variable;
   if (auto* element = as<IndexExpr>(e.target.get())) v = element->variable;
-  if (v && draws_once(e.value.get(), *v)) {
-    store(*e.target, {}, e.target->range);
-    return {};
-  }
   Variation outer = old_value_;
   if (e.compound) old_value_ = value(e.target.get());
-  Variation variation = value(e.value.get());
+  Variation variation = value_for(e.value.get(), v && always_uniform(*v));
   old_value_ = std::move(outer);
   store(*e.target, variation, e.value->range);
   return variation;
@@ -529,7 +524,9 @@ Variation ContextWalk::row_call(CallExpr& e) {
   const slvm::Signature& signature = info.signature;
   check_row_place(e, info.flags);
   Variation variation;
-  if (info.flags & slvm::kHiddenVarying) variation = {kVarying, {Reason::kBuiltin, e.range, e.name, nullptr}};
+  const bool once = drawing_once_ && info.name == "random";
+  if ((info.flags & slvm::kHiddenVarying) && !once)
+    variation = {kVarying, {Reason::kBuiltin, e.range, e.name, nullptr}};
   auto param = [&](size_t i) -> const slvm::SignatureParam& { return signature.param(static_cast<int>(i)); };
   // Surplus formals of an RSL body take token-value pairs.
   size_t count =

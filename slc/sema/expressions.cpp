@@ -230,12 +230,18 @@ TypeSet Checker::analyse_conditional(ConditionalExpr& e) {
   return types;
 }
 
-// False: reported.
-bool Checker::check_writable(const Variable& v, SourceRange where) {
+// Compilers of the time let shaders change their parameters, and functions their formals: a copy is changed,
+// which no caller sees. Not so arrays of functions, which are the caller's own.
+bool Checker::check_writable(Variable& v, SourceRange where) {
   if (v.output || v.kind == VariableKind::kLocal || v.kind == VariableKind::kGlobal) return true;
-  report(diags_, v.kind == VariableKind::kParameter ? Msg::kReadOnlyParameter : Msg::kReadOnlyFormal, where,
-         v.name);
-  return false;
+  if (v.kind == VariableKind::kFormal && v.array_length != kNotArray) {
+    report(diags_, Msg::kReadOnlyArray, where, v.name);
+    return false;
+  }
+  if (!std::exchange(v.copied, true))
+    report(diags_, v.kind == VariableKind::kParameter ? Msg::kReadOnlyParameter : Msg::kReadOnlyFormal, where,
+           v.name);
+  return true;
 }
 
 TypeSet Checker::analyse_assign(AssignExpr& e) {

@@ -36,11 +36,14 @@ std::vector<FunctionDef*> Scopes::functions(std::string_view name) const {
   for (size_t i = scopes_.size(); i-- > 0;) {
     auto it = scopes_[i].functions.find(name);
     if (it == scopes_[i].functions.end()) continue;
-    size_t inner = found.size();
-    for (FunctionDef* f : it->second) {
-      auto end = found.begin() + static_cast<std::ptrdiff_t>(inner);
-      if (std::none_of(found.begin(), end, [&](const FunctionDef* other) { return same_types(*other, *f); }))
-        found.push_back(f);
+    // Inner ones hide outer ones of the same types, later ones earlier ones.
+    const std::vector<FunctionDef*>& here = it->second;
+    const auto inner = static_cast<std::ptrdiff_t>(found.size());
+    for (size_t k = 0; k < here.size(); ++k) {
+      auto like = [&](const FunctionDef* other) { return same_types(*other, *here[k]); };
+      if (std::none_of(found.begin(), found.begin() + inner, like) &&
+          std::none_of(here.begin() + static_cast<std::ptrdiff_t>(k) + 1, here.end(), like))
+        found.push_back(here[k]);
     }
   }
   return found;

@@ -21,7 +21,7 @@ surface types(int n = 4; double k = 1; const float c = 2; float[3] list = {1, 2,
   calls++; // expect-error: the shading language has no operator '++': write x += 1
   --calls; // expect-error: the shading language has no operator '--': write x -= 1
   if (flag == false) Ci = EPS * scale + bias + pair[0] + first(list) + table[0][1]; // expect-error: there is no variable 'false': write 0 // expect-error: arrays have one index: there are no arrays of arrays, and elements of a matrix are comp(m, row, column)
-  swap(&calls, k); // expect-error: there are no references and pointers: arguments are passed by reference, and what is declared 'output' can be set // expect-error: parameter 'k' is read-only: copy it to a local variable, or declare it 'output'
+  swap(&calls, k); // expect-error: there are no references and pointers: arguments are passed by reference, and what is declared 'output' can be set // expect-warning: parameter 'k' is read-only
   Ci = half(one()) + count(i) + j + text[0]; // expect-error: 'text' is no array
 }
 surface operators(float k = 1; color tint = 1)

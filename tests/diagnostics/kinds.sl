@@ -11,7 +11,7 @@ surface outside(float k = 1) {
   vector l = normalize(L); // expect-error: 'L' has a meaning only inside an illuminance loop
   illuminance(P, N) Ci += Cl * length(l); // expect-error: illuminance takes ([category,] position [, axis, angle] [, token, value...])
   illuminance(P) { illuminance(P) { Ci += Cl; } } // expect-error: illuminance cannot stand inside illuminance
-  Cs = 1; // expect-error: 'Cs' is read-only in surface shaders
+  Cs = 1; // expect-warning: 'Cs' is read-only in surface shaders: a copy is changed, which this shader alone sees
 }
 light pointing(point from = (0, 0, 0)) {
   illuminate(from) { Cl = 1 / (L . L); }

@@ -2,7 +2,7 @@
 light wrong(float k = 1)
 {
   Ci = k; // expect-error: 'Ci' does not exist in light shaders; lights set Cl and Ol
-  Ps = P; // expect-error: 'Ps' is read-only in light shaders
+  Ps = P; // expect-warning: 'Ps' is read-only in light shaders
   Cl = length(L); // expect-error: only inside illuminate or solar
   Cl = diffuse(Ns); // expect-error: asks the lights and cannot be called by one
   illuminance(P) { Cl += 1; } // expect-error: illuminance cannot be used in light shaders
@@ -20,7 +20,7 @@ surface also_wrong()
     illuminance(P) { f += 1; } // expect-error: illuminance cannot stand inside illuminance
     Ci += Cl * f;
   }
-  Cs = 1; // expect-error: 'Cs' is read-only in surface shaders
+  Cs = 1; // expect-warning: 'Cs' is read-only in surface shaders
 }
 displacement bump() { P += Ci; } // expect-error: cannot take (point, color) // expect-error: 'Ci' does not exist in displacement shaders
 imager over() { Ci += Cs; } // expect-error: 'Cs' does not exist in imager shaders

@@ -2,7 +2,7 @@
 float outer(float x) { return x * k; } // expect-error: unknown variable 'k'
 float uses_p() { return length(P); } // expect-warning: declare 'extern point P;' // expect-warning: a point is used as a vector
 float twice(float x) { return 2 * x; }
-float twice(float y) { return y + y; } // expect-error: defined twice
+float twice(float y) { return y + y; } // expect-warning: function 'twice' is defined again with the same types: from here on, calls mean this one
 float again(float x) { return again(x); } // expect-error: calls itself
 float wrong_extern() {
   extern float nowhere; // expect-error: there is no such variable outside

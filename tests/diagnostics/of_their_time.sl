@@ -47,3 +47,18 @@ surface defaults(float a; string b; color c[2]; float d = 1) { // expect-warning
   Ci = a * c[0] + d + unset; // expect-warning: read before it is set
   if (b == "") Ci *= 2;
 }
+light ambience(float intensity = 1) {
+  L = 0; // expect-warning: 'L' is what illuminate and solar give: set here it has no effect
+  N = normalize(N); // expect-warning: 'N' is read-only in light shaders
+  Cl = intensity * length(N);
+}
+#define sqr(x) ((x) * (x))
+float with_a_function_named_like_a_macro(float x) {
+  float sqr (float y) { return y * y; }
+  return sqr(x);
+}
+surface draws() {
+  uniform color once = color(random(), random(), with_a_function_named_like_a_macro(random()));
+  Ci = once;
+}
+imager film() { Ci *= noise(s, t); }

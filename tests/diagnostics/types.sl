@@ -9,7 +9,7 @@ surface s(float k = 1; string name = ""; float list[3] = {1, 2, 3})
   name + "a"; // expect-error: strings can only be compared
   f = list * 2; // expect-error: arrays are used element by element
   f = list; // expect-error: a whole array cannot be used here
-  list = 1; // expect-error: cannot be assigned as a whole // expect-error: parameter 'list' is read-only
+  list = 1; // expect-error: cannot be assigned as a whole // expect-warning: parameter 'list' is read-only
   f = list[3]; // expect-error: index 3 is outside array 'list' of 3 elements
   f = k[0]; // expect-error: 'k' is no array
   f = {1, 2}; // expect-error: can only initialise an array
