@@ -49,13 +49,13 @@ private:
     if (block < 0 || r.block != block) r.block = -2;
   }
 
-  // What is defined before a loop and read in it must last to its end. A strip block is a loop over strips
-  // for the uniform registers: those are the same for all strips. Inner loops stand before outer ones in the
-  // list.
+  // What is defined before a loop and read in it must last to its end, and so must what a light loop is
+  // given: it looks at axis and angle for each light. A strip block is a loop over strips for the uniform
+  // registers: those are the same for all strips. Inner loops stand before outer ones in the list.
   void extend_over_rounds() {
     auto extend = [&](std::pair<uint32_t, uint32_t> loop, bool uniform_only) {
       for (LowReg& r : code_.regs)
-        if (r.first < loop.first && r.last > loop.first && r.last < loop.second &&
+        if (r.first < loop.first && r.last >= loop.first && r.last < loop.second &&
             !(uniform_only && r.varying))
           r.last = loop.second;
     };

@@ -7,6 +7,7 @@
 #include "slvm/machine.h"
 #include "tests/fuzz/no_scene.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
@@ -178,6 +179,18 @@ std::string compare(const Results& expected, const Results& got) {
   return "";
 }
 
+// The first line in which two texts differ.
+std::string first_difference(const std::string& expected, const std::string& got) {
+  const size_t at = static_cast<size_t>(
+      std::mismatch(got.begin(), got.end(), expected.begin(), expected.end()).first - got.begin());
+  auto line = [&](const std::string& text) {
+    const size_t begin = at == 0 ? 0 : text.rfind('\n', at - 1) + 1; // npos + 1 is 0
+    return text.substr(begin, text.find('\n', at) - begin);
+  };
+  return fmt::format("prints \"{}\" instead of \"{}\", {} characters, not {}", line(got), line(expected),
+                     got.size(), expected.size());
+}
+
 } // namespace
 
 std::string disagreement(const RandomProgram& program) {
@@ -199,7 +212,7 @@ std::string disagreement(const RandomProgram& program) {
       return fmt::format("{}: {}", v.name, difference);
     // Alone, a text with a uniform value is printed by each point.
     if (!v.alone && text != expected_text)
-      return fmt::format("{} prints\n{}instead of\n{}", v.name, text, expected_text);
+      return fmt::format("{}: {}", v.name, first_difference(expected_text, text));
   }
   return "";
 }

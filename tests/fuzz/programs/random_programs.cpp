@@ -1,10 +1,12 @@
 // random_programs FIRST COUNT: random programs number FIRST to FIRST + COUNT - 1, run in all ways. Of one
-// that fails it prints a small version. random_programs --show N prints program N.
+// that fails it prints a small version. --show N prints program N; --check FILE runs a program that was
+// printed.
 #include "tests/fuzz/programs/differential.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <random>
 
 namespace {
@@ -38,8 +40,16 @@ int check(unsigned number) {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::fputs("usage: random_programs FIRST COUNT | --show NUMBER\n", stderr);
+    std::fputs("usage: random_programs FIRST COUNT | --show NUMBER | --check FILE\n", stderr);
     return 2;
+  }
+  if (!std::strcmp(argv[1], "--check")) {
+    std::ifstream file(argv[2]);
+    RandomProgram program;
+    program.source = {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string wrong = disagreement(program);
+    std::printf("%s\n", wrong.empty() ? "fine" : wrong.c_str());
+    return wrong.empty() ? 0 : 1;
   }
   const auto last = static_cast<unsigned>(std::atoi(argv[2]));
   if (!std::strcmp(argv[1], "--show")) {
