@@ -39,6 +39,7 @@ int check(unsigned number) {
 } // namespace
 
 int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0); // what was found stays, however the run ends
   if (argc != 3) {
     std::fputs("usage: random_programs FIRST COUNT | --show NUMBER | --check FILE\n", stderr);
     return 2;
