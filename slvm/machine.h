@@ -38,6 +38,9 @@ struct MachineOptions {
   std::string target = {};
   /// Re-run the optimiser on each instance with its parameter values folded in.
   bool specialise = true;
+  /// Rounds of all loops together that one run of a shader on one grid may take; then loops are left, with a
+  /// run-time message. A shader that never ends would stop its renderer.
+  uint64_t most_rounds = 30'000'000;
   /// Fill registers with signalling NaN before each run, so that a read of an unset value shows.
   bool poison_registers = false;
   /// For an application's log: called with each run-time message when it first occurs, by the thread whose

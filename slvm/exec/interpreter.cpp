@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace slvm {
 
@@ -192,6 +193,20 @@ void ShaderRun::narrow(Frame& f, const MaskStack& m) {
   f.end = (last / kMaxLanes + 1) * kMaxLanes;
 }
 
+bool ShaderRun::next_round(const Frame& f, MaskStack& m, uint32_t pc) {
+  if (!m.next_round()) return false;
+  if (rounds_left_ > 0) {
+    --rounds_left_;
+    return true;
+  }
+  report(
+      pc, MessageSeverity::kError,
+      fmt::format("a loop has not ended after {} rounds, and is left", state.machine.options().most_rounds),
+      mask_count(m.current(), f.active));
+  m.lanes_break(1);
+  return m.next_round();
+}
+
 template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
   const uint32_t* code = program.code.data();
   const Instance::Bound::Import* imports = bound.imports.data();
@@ -257,7 +272,7 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
     case Opcode::k_loop:
     case Opcode::k_block: m.push_loop(); break;
     case Opcode::k_endloop:
-      if (m.next_round())
+      if (next_round(f, m, at))
         pc = w[0];
       else if (!m.any() && !f.runs_idle)
         pc = w[1];

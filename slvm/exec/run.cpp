@@ -33,6 +33,7 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal, std::spa
 }
 
 void ShaderRun::compute_defaults() {
+  rounds_left_ = state.machine.options().most_rounds;
   Frame frame = frame_;
   for (auto [section, slot] : bound.defaults)
     if (!override_for(slot)) run_code(frame, program.sections[section]);

@@ -136,7 +136,12 @@ private:
   static void narrow(Frame& frame, const MaskStack& mask);
   uint32_t next_light(MaskStack& mask, uint32_t body, uint32_t end);
 
+  /// The lanes still in a loop go on to the next round; false: there are none, or they have gone round for
+  /// too long.
+  bool next_round(const Frame& frame, MaskStack& mask, uint32_t pc);
+
   Frame frame_{};
+  uint64_t rounds_left_ = 0;
   std::span<const SentValue> sent_;
   PlaneMemory memory_;
   std::vector<PlaneMemory> extra_; ///< variables with no place in the register memory

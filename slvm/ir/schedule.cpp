@@ -593,6 +593,7 @@ private:
       level_[p] = depth();
     ends_.push_back({});
     emit_region(inst.regions[0]);
+    where_ = inst.where;
     uint32_t end = is_block ? add(Opcode::k_endblock, {target(0)})
                             : add(Opcode::k_endloop, {target(begin + 1), target(0)});
     close(end);

@@ -120,6 +120,20 @@ TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
   EXPECT_EQ(messages[0].points, 10u);
 }
 
+TEST_F(MachineTest, LoopsWithoutEndAreLeft) {
+  Machine patient({.most_rounds = 1000});
+  auto surface = instantiate(patient, "surface s(output varying float n = 0;) {\n float i = 0;\n"
+                                      " while (i < 1) {\n  i *= 0.5; n += 1;\n }\n Ci = 3;\n}");
+  Grid grid = square(5, 1);
+  ShadingContext context(patient, services);
+  context.shade({.surface = surface.get()}, grid);
+  EXPECT_THAT(red(grid), Each(3.0f));
+  ASSERT_EQ(patient.messages().size(), 1u);
+  EXPECT_EQ(patient.messages()[0].text, "a loop has not ended after 1000 rounds, and is left");
+  EXPECT_EQ(patient.messages()[0].line, 3u);
+  EXPECT_EQ(patient.messages()[0].points, 5u);
+}
+
 TEST_F(MachineTest, MessagesNameTheLineOfTheirCallWhateverWaitsBeforeIt) {
   shade("surface s(output varying float x = 0;) {\n if (u > 0.4)\n x = sqrt(v);\n error(\"here\");\n}");
   ASSERT_EQ(machine.messages().size(), 1u);
