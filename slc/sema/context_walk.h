@@ -1,6 +1,6 @@
-// The walk over one shader with its calls expanded that contexts.h is about: which values vary, by a fixpoint. What
-// varies stays so; the walk is repeated until nothing changes, and once more to report. Its parts: contexts.cpp
-// (beginning, answers), context_statements.cpp, context_values.cpp, context_places.cpp.
+// The walk over one shader with its calls expanded that contexts.h is about: which values vary, by a
+// fixpoint. What varies stays so; the walk is repeated until nothing changes, and once more to report. Its
+// parts: contexts.cpp (beginning, answers), context_statements.cpp, context_values.cpp, context_places.cpp.
 //
 // Control that some lanes have left counts as varying. There are two degrees: under a varying condition or in
 // gather (hard), and in light loops or after a varying break or return (soft). A variable set there varies

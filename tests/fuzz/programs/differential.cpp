@@ -104,17 +104,23 @@ void collect(const Planes& planes, size_t points, std::vector<float>& out, size_
 
 class Runner {
 public:
-  std::string run(const std::string& source, const Variant& v, Results& results, std::string& printed) {
+  std::string run(const RandomProgram& program, const Variant& v, Results& results, std::string& printed) {
     Machine machine(v.machine);
     std::string error;
     std::vector<std::unique_ptr<Instance>> lights;
     Scene scene;
-    for (const auto& shader : compile(kLights, 2, error)) {
+    std::vector<std::vector<std::byte>> emitters = compile(kLights, 2, error);
+    if (!program.light.empty()) {
+      for (auto& emitter : compile(program.light, v.level, error))
+        emitters.push_back(std::move(emitter));
+      if (!error.empty()) return error;
+    }
+    for (const auto& shader : emitters) {
       lights.push_back(instantiate(machine, shader, error));
       if (!lights.back()) return error;
       scene.light_list.push_back(lights.back().get());
     }
-    auto shaders = compile(source, v.level, error);
+    auto shaders = compile(program.source, v.level, error);
     if (shaders.size() != 1) return error;
     auto surface = instantiate(machine, shaders[0], error);
     if (!surface) return error;
@@ -201,7 +207,7 @@ std::string disagreement(const RandomProgram& program) {
     if (v.alone && !program.pointwise) continue;
     Results got;
     std::string text;
-    if (std::string error = runner.run(program.source, v, got, text); !error.empty())
+    if (std::string error = runner.run(program, v, got, text); !error.empty())
       return fmt::format("{}: {}", v.name, error);
     if (expected.empty()) {
       expected = std::move(got);

@@ -68,7 +68,8 @@ std::vector<ShadeopId> ProgramWriter::rows(Type result, bool uniform) const {
     if (s.result != result || row.kind == ShadeopKind::kPending) continue;
     if ((row.flags & kInternal) && !is_operator) continue;
     constexpr uint32_t kScene = kTexture | kRays | kMessage | kInIlluminance | kEffect;
-    const bool lights = (row.flags & kLights) && !in_illuminance_ && !in_function_ && !inputs_only_;
+    const bool lights =
+        (row.flags & kLights) && !in_illuminance_ && !in_function_ && !in_light_ && !inputs_only_;
     const bool area = row.name == "area" || row.name == "calculatenormal";
     if ((row.flags & kScene) || ((row.flags & (kReadsState | kLights)) && !lights && !area)) continue;
     if (pointwise_ && ((row.flags & kDerivative) || row.name.starts_with("random"))) continue;

@@ -12,6 +12,8 @@ struct RandomProgram {
   /// One surface shader, "t". Its inputs are s, t, P, N and those of program_inputs(); what it computes is in
   /// its output parameters, Ci and Oi, and what it prints.
   std::string source;
+  /// One light shader, "l".
+  std::string light;
   /// No derivatives and no random numbers: a point's results do not depend on what grid it is on.
   bool pointwise = false;
 };

@@ -30,9 +30,9 @@ int check(unsigned number) {
   const std::vector<uint8_t> bytes = bytes_of(number);
   const std::string wrong = disagreement(program_of(bytes));
   if (wrong.empty()) return 0;
+  std::printf("program %u: %s\n", number, wrong.c_str());
   const RandomProgram small = program_of(shrink(bytes));
-  std::printf("program %u: %s\n%s%s\n", number, wrong.c_str(), small.source.c_str(),
-              disagreement(small).c_str());
+  std::printf("%s%s%s\n", small.source.c_str(), small.light.c_str(), disagreement(small).c_str());
   return 1;
 }
 
@@ -54,7 +54,8 @@ int main(int argc, char** argv) {
   }
   const auto last = static_cast<unsigned>(std::atoi(argv[2]));
   if (!std::strcmp(argv[1], "--show")) {
-    std::fputs(program_of(bytes_of(last)).source.c_str(), stdout);
+    const RandomProgram program = program_of(bytes_of(last));
+    std::printf("%s%s", program.source.c_str(), program.light.c_str());
     return 0;
   }
   const auto first = static_cast<unsigned>(std::atoi(argv[1]));

@@ -131,7 +131,7 @@ void ProgramWriter::jump() {
 }
 
 void ProgramWriter::illuminance() {
-  if (in_illuminance_ || in_function_ || loops_ > 0) return assignment();
+  if (in_illuminance_ || in_function_ || in_light_ || loops_ > 0) return assignment();
   std::string head = choose_.chance(30) ? "\"key\", " : choose_.chance(20) ? "\"-key\", " : "";
   head += expression(Type::kPoint, 2, false);
   if (choose_.chance(50))
@@ -156,8 +156,9 @@ void ProgramWriter::illuminance() {
 }
 
 void ProgramWriter::print() {
-  // Some texts only: a print in every round of every point would be most of the work.
-  if (loops_ > 0 || in_function_) return assignment();
+  // Some texts only: a print in every round of every point would be most of the work. How often a light runs
+  // is nobody's business.
+  if (loops_ > 0 || in_function_ || in_light_) return assignment();
   line(fmt::format("printf(\"%f %c %s\\n\", {}, {}, {});", expression(Type::kFloat, 2, false),
                    expression(Type::kColor, 2, false), expression(Type::kString, 2, true)));
 }
@@ -287,10 +288,50 @@ std::string ProgramWriter::program(bool pointwise) {
   return std::move(out_);
 }
 
+// Some code, an illuminate or solar with more, and some behind it.
+std::string ProgramWriter::light(bool pointwise) {
+  pointwise_ = pointwise;
+  in_light_ = true;
+  statements_left_ = kMaxStatements / 3;
+  line("light l(varying float w = 2; varying color tint = color (1, 0.5, 0.25);) {");
+  auto add = [&](const char* name, Type t, bool uniform, bool assignable) {
+    scope_.push_back({name, t, 0, uniform, assignable, !assignable});
+  };
+  add("w", Type::kFloat, false, false);
+  add("tint", Type::kColor, false, false);
+  add("Ps", Type::kPoint, false, false);
+  add("Ns", Type::kNormal, false, false);
+  add("s", Type::kFloat, false, false);
+  add("Cl", Type::kColor, false, true);
+  add("Ol", Type::kColor, false, true);
+  block(4);
+  const bool cone = choose_.chance(50);
+  std::string head = choose_.chance(50)
+                         ? ""
+                         : expression(Type::kVector, 2, false) + ", " + expression(Type::kFloat, 2, false);
+  if (cone) head = expression(Type::kPoint, 2, false) + (head.empty() ? "" : ", " + head);
+  line(fmt::format("  {} ({}) {{", cone ? "illuminate" : "solar", head));
+  divergence_ += 1;
+  ++loops_; // no prints, no light loops
+  without_jumps_ += 1;
+  add("L", Type::kVector, false, false);
+  block(4);
+  line(fmt::format("    Cl = {};", expression(Type::kColor, 3, false)));
+  scope_.pop_back();
+  without_jumps_ -= 1;
+  --loops_;
+  divergence_ -= 1;
+  line("  }");
+  block(2);
+  line("}");
+  return std::move(out_);
+}
+
 RandomProgram random_program(Choices& choices) {
   RandomProgram p;
   p.pointwise = choices.below(2) == 0;
   p.source = ProgramWriter(choices).program(p.pointwise);
+  p.light = ProgramWriter(choices).light(p.pointwise);
   return p;
 }
 

@@ -30,6 +30,7 @@ public:
   explicit ProgramWriter(Choices& choices) : choose_(choices) {}
 
   std::string program(bool pointwise);
+  std::string light(bool pointwise);
 
 private:
   // ---- expressions.cpp: each gives text that can stand anywhere
@@ -75,7 +76,7 @@ private:
   int indent_ = 0, next_name_ = 0, nesting_ = 0, loops_ = 0, divergence_ = 0, without_jumps_ = 0;
   int statements_left_ = 40;
   Type returns_ = Type::kVoid;
-  bool in_function_ = false, in_illuminance_ = false, pointwise_ = false;
+  bool in_function_ = false, in_illuminance_ = false, in_light_ = false, pointwise_ = false;
   /// Writing what a derivative under a condition differentiates: functions of the inputs, which every
   /// neighbour has. How many neighbours have other values is the optimiser's affair.
   bool inputs_only_ = false;
