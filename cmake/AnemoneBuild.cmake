@@ -75,7 +75,11 @@ function(sl_unit_test name)
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE anemone_flags ${arg_LIBS} GTest::gtest_main GTest::gmock)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS fast TIMEOUT 120)
+  set(timeout 120)
+  if(ANEMONE_SANITIZE) # many times slower
+    set(timeout 900)
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS fast TIMEOUT ${timeout})
 endfunction()
 
 # sl_embed(TARGET HEADER FUNCTION PREFIX PATTERN): the files that match, as texts in the library: FUNCTION, declared in
