@@ -2,7 +2,7 @@
 // list after.
 #include "render/rib/parser.h"
 
-#include "render/rib/ascii_lexer.h"
+#include "render/rib/lexer.h"
 
 #include <fmt/format.h>
 
@@ -26,6 +26,7 @@ private:
   bool fail(std::string text);
   bool fail_expected(std::string_view what);
   std::string found() const;
+  std::string place() const;
 
   bool parse_request(const RequestInfo& info);
   bool parse_flat(const RequestInfo& info);
@@ -51,9 +52,9 @@ void Parser::run() {
   while (token_.kind != TokenKind::kEnd) {
     if (token_.kind != TokenKind::kWord) {
       if (token_.kind == TokenKind::kError)
-        diagnostics_.error(token_.where, token_.text);
+        diagnostics_.error(token_.where, token_.text + place());
       else
-        diagnostics_.error(token_.where, fmt::format("expected a request, found {}", found()));
+        diagnostics_.error(token_.where, fmt::format("expected a request, found {}{}", found(), place()));
       take();
       recover();
       continue;
@@ -83,13 +84,18 @@ void Parser::recover() {
 }
 
 bool Parser::fail(std::string text) {
-  diagnostics_.error(token_.where, fmt::format("{}: {}", info_->name, text));
+  diagnostics_.error(token_.where, fmt::format("{}: {}{}", info_->name, text, place()));
   return false;
 }
 
 bool Parser::fail_expected(std::string_view what) {
   if (token_.kind == TokenKind::kError) return fail(token_.text);
   return fail(fmt::format("expected {}, found {}", what, found()));
+}
+
+/// Where an encoded token is; of others the line says it.
+std::string Parser::place() const {
+  return token_.encoded ? fmt::format(" (byte {} of the file)", token_.offset) : "";
 }
 
 std::string Parser::found() const {
@@ -198,7 +204,8 @@ bool Parser::parse_int(const ArgumentInfo& info, std::vector<int>& out) {
   if (std::trunc(value) != value) return fail_expected(fmt::format("an integer for '{}'", info.name));
   if (std::abs(value) > 2147483647.0)
     return fail(fmt::format("{:g} is too large for the integer '{}'", value, info.name));
-  if (token_.kind == TokenKind::kReal)
+  // Once for a whole array.
+  if (token_.kind == TokenKind::kReal && out.empty())
     diagnostics_.warning(
         token_.where, "rib-integer",
         fmt::format("{}: '{}' is an integer, written as a real number", info_->name, info.name));
@@ -304,11 +311,7 @@ void parse_rib(TokenStream& tokens, RiTarget& target, slvm::Diagnostics& diagnos
 }
 
 void parse_rib(std::string_view text, slvm::FileId file, RiTarget& target, slvm::Diagnostics& diagnostics) {
-  if (text.starts_with("\x1f\x8b")) {
-    diagnostics.error({file, 1, 1, 1}, "this file is compressed with gzip; decompress it first");
-    return;
-  }
-  AsciiLexer lexer(text, file);
+  Lexer lexer(text, file);
   parse_rib(lexer, target, diagnostics);
 }
 

@@ -1,5 +1,5 @@
-// The words of a RIB stream, whatever its encoding. The parser sees nothing else of a file; the ASCII lexer
-// (ascii_lexer.h) is one source of tokens.
+// The words of a RIB stream, whatever its encoding. The parser sees nothing else of a file; the lexer of files
+// (lexer.h) is one source of tokens.
 #pragma once
 
 #include "slvm/support/source.h"
@@ -26,6 +26,8 @@ struct Token {
   double number = 0;
   std::string text; ///< of words, strings (escapes resolved) and errors
   slvm::SourceRange where;
+  size_t offset = 0;    ///< first byte, counted from the beginning of the stream
+  bool encoded = false; ///< in binary: lines and columns tell a reader little
 
   bool is_number() const { return kind == TokenKind::kInteger || kind == TokenKind::kReal; }
 };

@@ -3,6 +3,8 @@
 // _geometry.cpp.
 #include "render/state/interpreter.h"
 
+#include "render/rib/encoding.h"
+#include "render/rib/gzip.h"
 #include "render/rib/parser.h"
 #include "render/state/search_path.h"
 
@@ -114,6 +116,7 @@ bool Interpreter::record(const RequestCall& call) {
 namespace {
 
 constexpr int kMaxArchiveDepth = 64;
+constexpr size_t kMaxUnpacked = size_t{1} << 30;
 
 } // namespace
 
@@ -161,8 +164,19 @@ bool Interpreter::read_file(const std::string& name) {
 }
 
 void Interpreter::read_text(std::string name, std::string text) {
-  slvm::FileId file = sources_.add(std::move(name), std::move(text));
-  parse_rib(sources_.text(file), file, *this, diagnostics_);
+  std::string problem;
+  if (is_gzip(text)) {
+    Unpacked unpacked = unpack_gzip(text, kMaxUnpacked);
+    text = std::move(unpacked.text);
+    problem = std::move(unpacked.error);
+  }
+  EndMarkFinder finder;
+  finder.find(text);
+  // Lines of an encoded file would be noise in messages, so its text is not kept.
+  bool encoded = finder.saw_encoded();
+  slvm::FileId file = sources_.add(std::move(name), encoded ? std::string() : std::move(text));
+  if (!problem.empty()) diagnostics_.error({file, 1, 1, 1}, problem);
+  parse_rib(encoded ? text : sources_.text(file), file, *this, diagnostics_);
 }
 
 void Interpreter::finish() {

@@ -170,9 +170,5 @@ TEST(Parser, damaged_text_is_safe) {
   }
 }
 
-TEST(Parser, compressed_files_are_named_as_such) {
-  EXPECT_EQ(parse("\x1f\x8b\x08").errors, "1:1: this file is compressed with gzip; decompress it first\n");
-}
-
 } // namespace
 } // namespace render

@@ -1,5 +1,5 @@
-// ASCII RIB: RISpec 3.2, appendix C. Line ends (LF, CR, CRLF) only separate; positions count them.
-#include "render/rib/ascii_lexer.h"
+// RIB text: RISpec 3.2, appendix C; encoded tokens are in encoded_tokens.cpp. Line ends (LF, CR, CRLF) only separate; positions count them.
+#include "render/rib/lexer.h"
 
 #include <fmt/format.h>
 
@@ -24,9 +24,9 @@ bool is_octal(char c) {
 
 } // namespace
 
-AsciiLexer::AsciiLexer(std::string_view text, slvm::FileId file) : text_(text), file_(file) {}
+Lexer::Lexer(std::string_view text, slvm::FileId file) : text_(text), file_(file) {}
 
-void AsciiLexer::advance() {
+void Lexer::advance() {
   char c = text_[at_++];
   if (c == '\n' || (c == '\r' && peek() != '\n')) {
     ++line_;
@@ -34,7 +34,7 @@ void AsciiLexer::advance() {
   }
 }
 
-void AsciiLexer::skip_blanks() {
+void Lexer::skip_blanks() {
   while (at_ < text_.size()) {
     if (is_blank(text_[at_])) {
       advance();
@@ -47,17 +47,23 @@ void AsciiLexer::skip_blanks() {
   }
 }
 
-bool AsciiLexer::starts_number() const {
+bool Lexer::starts_number() const {
   size_t i = peek() == '+' || peek() == '-' ? 1 : 0;
   return is_digit(peek(i)) || (peek(i) == '.' && is_digit(peek(i + 1)));
 }
 
-void AsciiLexer::next(Token& token) {
-  skip_blanks();
+void Lexer::next(Token& token) {
+  if (!in_array_) skip_blanks();
   token.text.clear();
   token.number = 0;
+  token.encoded = false;
+  token.offset = at_;
   token.where = {file_, line_, column(), column()};
-  if (at_ >= text_.size()) {
+  if (in_array_) {
+    read_array_element(token);
+    return;
+  }
+  if (at_ >= text_.size() || ended_) {
     token.kind = TokenKind::kEnd;
     return;
   }
@@ -66,6 +72,8 @@ void AsciiLexer::next(Token& token) {
   if (c == '[' || c == ']') {
     token.kind = c == '[' ? TokenKind::kOpen : TokenKind::kClose;
     ++at_;
+  } else if (is_encoded(c)) {
+    read_encoded(token);
   } else if (c == '"') {
     read_string(token);
   } else if (starts_number()) {
@@ -82,7 +90,7 @@ void AsciiLexer::next(Token& token) {
   token.where.end = line_ == first_line ? column() : token.where.column + 1;
 }
 
-void AsciiLexer::read_word(Token& token) {
+void Lexer::read_word(Token& token) {
   token.kind = TokenKind::kWord;
   size_t begin = at_;
   while (is_letter(peek()) || is_digit(peek()))
@@ -90,7 +98,7 @@ void AsciiLexer::read_word(Token& token) {
   token.text = text_.substr(begin, at_ - begin);
 }
 
-void AsciiLexer::read_number(Token& token) {
+void Lexer::read_number(Token& token) {
   size_t begin = at_;
   if (peek() == '+' || peek() == '-') ++at_;
   bool real = false;
@@ -124,7 +132,7 @@ void AsciiLexer::read_number(Token& token) {
   }
 }
 
-void AsciiLexer::read_string(Token& token) {
+void Lexer::read_string(Token& token) {
   token.kind = TokenKind::kString;
   ++at_;
   while (at_ < text_.size() && peek() != '"') {
@@ -146,7 +154,7 @@ void AsciiLexer::read_string(Token& token) {
 
 /// The part after a backslash. Octal codes take up to three digits; an unknown escape is the character
 /// itself.
-void AsciiLexer::read_escape(std::string& out) {
+void Lexer::read_escape(std::string& out) {
   if (at_ >= text_.size()) return;
   char c = peek();
   if (is_octal(c)) {
@@ -170,15 +178,15 @@ void AsciiLexer::read_escape(std::string& out) {
   }
 }
 
-void AsciiLexer::read_garbage(Token& token) {
+void Lexer::read_garbage(Token& token) {
   token.kind = TokenKind::kError;
   auto byte = static_cast<unsigned char>(peek());
   bool plain = byte > 0x20 && byte < 0x7f;
   token.text = plain ? fmt::format("'{}' has no meaning in a RIB file", peek())
-                     : fmt::format("byte 0x{:02x} has no meaning in an ASCII RIB file", byte);
+                     : fmt::format("byte 0x{:02x} has no meaning in a RIB file", byte);
   // One message for a whole run of such bytes.
   auto is_known = [](char c) {
-    return is_blank(c) || is_letter(c) || is_digit(c) || c == '[' || c == ']' || c == '"' || c == '#' ||
+    return is_encoded(c) || is_blank(c) || is_letter(c) || is_digit(c) || c == '[' || c == ']' || c == '"' || c == '#' ||
            c == '-' || c == '+' || c == '.';
   };
   ++at_;
