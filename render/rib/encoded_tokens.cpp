@@ -143,7 +143,8 @@ void Lexer::read_array_element(Token& token) {
 bool Lexer::take(size_t count, std::string_view& bytes, Token& token) {
   if (text_.size() - at_ < count) {
     token.kind = TokenKind::kError;
-    token.text = fmt::format("an encoded item needs {} bytes more, the file has {}", count, text_.size() - at_);
+    token.text =
+        fmt::format("an encoded item needs {} bytes more, the file has {}", count, text_.size() - at_);
     at_ = text_.size();
     return false;
   }

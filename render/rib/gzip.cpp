@@ -31,7 +31,8 @@ Unpacked unpack_gzip(std::string_view bytes, size_t limit) {
     out.text.append(buffer, sizeof buffer - stream.avail_out);
     if (out.text.size() > limit) {
       out.text.resize(limit);
-      out.error = fmt::format("the compressed file unpacks to more than {} MB; the rest is not read", limit >> 20);
+      out.error =
+          fmt::format("the compressed file unpacks to more than {} MB; the rest is not read", limit >> 20);
     } else if (status == Z_STREAM_END) {
       // Another member may follow; anything else after the end is padding.
       if (!is_gzip(bytes.substr(given))) break;
@@ -39,8 +40,8 @@ Unpacked unpack_gzip(std::string_view bytes, size_t limit) {
     } else if (status == Z_BUF_ERROR && given == bytes.size()) {
       out.error = fmt::format("the compressed file ends too early, at byte {}", given);
     } else if (status != Z_OK) {
-      out.error = fmt::format("the compressed file is damaged near byte {}{}{}", given, stream.msg ? ": " : "",
-                              stream.msg ? stream.msg : "");
+      out.error = fmt::format("the compressed file is damaged near byte {}{}{}", given,
+                              stream.msg ? ": " : "", stream.msg ? stream.msg : "");
     }
   }
   inflateEnd(&stream);

@@ -1,4 +1,5 @@
-// RIB text: RISpec 3.2, appendix C; encoded tokens are in encoded_tokens.cpp. Line ends (LF, CR, CRLF) only separate; positions count them.
+// RIB text: RISpec 3.2, appendix C; encoded tokens are in encoded_tokens.cpp. Line ends (LF, CR, CRLF) only
+// separate; positions count them.
 #include "render/rib/lexer.h"
 
 #include <fmt/format.h>
@@ -186,8 +187,8 @@ void Lexer::read_garbage(Token& token) {
                      : fmt::format("byte 0x{:02x} has no meaning in a RIB file", byte);
   // One message for a whole run of such bytes.
   auto is_known = [](char c) {
-    return is_encoded(c) || is_blank(c) || is_letter(c) || is_digit(c) || c == '[' || c == ']' || c == '"' || c == '#' ||
-           c == '-' || c == '+' || c == '.';
+    return is_encoded(c) || is_blank(c) || is_letter(c) || is_digit(c) || c == '[' || c == ']' || c == '"' ||
+           c == '#' || c == '-' || c == '+' || c == '.';
   };
   ++at_;
   while (at_ < text_.size() && !is_known(peek()))

@@ -1,5 +1,5 @@
-// Tokens of a RIB file: words, numbers, strings with escapes, brackets, # comments, and their binary encodings
-// (encoding.h) in any mixture.
+// Tokens of a RIB file: words, numbers, strings with escapes, brackets, # comments, and their binary
+// encodings (encoding.h) in any mixture.
 #pragma once
 
 #include "render/rib/encoding.h"

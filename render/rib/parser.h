@@ -11,8 +11,8 @@ namespace render {
 
 class TokenStream;
 
-/// Parses a whole RIB text, ASCII and binary, and hands its requests to `target`, in order. Errors go to `diagnostics`
-/// with positions in `file`. Any bytes are safe input; nothing recurses.
+/// Parses a whole RIB text, ASCII and binary, and hands its requests to `target`, in order. Errors go to
+/// `diagnostics` with positions in `file`. Any bytes are safe input; nothing recurses.
 void parse_rib(std::string_view text, slvm::FileId file, RiTarget& target, slvm::Diagnostics& diagnostics);
 
 /// The same for any source of tokens.

@@ -1,5 +1,5 @@
-// The words of a RIB stream, whatever its encoding. The parser sees nothing else of a file; the lexer of files
-// (lexer.h) is one source of tokens.
+// The words of a RIB stream, whatever its encoding. The parser sees nothing else of a file; the lexer of
+// files (lexer.h) is one source of tokens.
 #pragma once
 
 #include "slvm/support/source.h"

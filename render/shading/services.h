@@ -38,7 +38,6 @@ private:
   std::function<void(std::string_view)> print_;
   std::mutex print_mutex_;
   std::map<std::string, Space, std::less<>> spaces_;
-  std::map<std::string, slvm::Value, std::less<>> options_;
 };
 
 } // namespace render

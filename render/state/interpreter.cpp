@@ -1,12 +1,7 @@
-// The dispatch of requests: which member function carries out which, where they are legal, recording and
-// replaying. The requests themselves: interpreter_blocks.cpp, _options.cpp, _attributes.cpp, _transforms.cpp,
-// _geometry.cpp.
+// The dispatch of requests: which member function carries out which, where they are legal, messages. The
+// requests themselves: interpreter_blocks.cpp, _archives.cpp, _conditions.cpp, _options.cpp, _attributes.cpp,
+// _transforms.cpp, _geometry.cpp.
 #include "render/state/interpreter.h"
-
-#include "render/rib/encoding.h"
-#include "render/rib/gzip.h"
-#include "render/rib/parser.h"
-#include "render/state/search_path.h"
 
 #include <fmt/format.h>
 
@@ -41,6 +36,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kIfBegin, &I::if_begin), set(kElseIf, &I::else_branch), set(kElse, &I::else_branch),
         set(kIfEnd, &I::if_end);
     set(kDeclare, &I::declare), set(kversion, &I::version), set(kBound, &I::accept);
+    set(kErrorHandler, &I::error_handler);
 
     set(kFormat, &I::format), set(kFrameAspectRatio, &I::frame_aspect_ratio);
     set(kScreenWindow, &I::screen_window), set(kCropWindow, &I::crop_window);
@@ -73,24 +69,20 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
 }
 
 void Interpreter::request(const RequestCall& call) {
-  if (record(call) || skipped(call)) return;
+  if (stopped(call) || record(call) || skipped(call)) return;
+  if (auto substituted = substitute(call))
+    carry_out(*substituted);
+  else
+    carry_out(call);
+}
+
+void Interpreter::carry_out(const RequestCall& call) {
   const RequestInfo& info = call.info();
   if (!info.lacks.empty())
     warn_once(std::string(info.name), call.where, "rib-unsupported",
               fmt::format("{} is not supported yet: {}", info.name, info.lacks));
   if (!legal(call)) return;
   if (Handler h = handler(call.id)) (this->*h)(call);
-}
-
-/// Conditions are not evaluated: the first branch counts, the others are passed over.
-bool Interpreter::skipped(const RequestCall& call) {
-  if (skip_depth_ > 0) {
-    if (call.id == RequestId::kIfBegin) ++skip_depth_;
-    if (call.id == RequestId::kIfEnd && --skip_depth_ == 0) return false;
-    return true;
-  }
-  if (motion_calls_ < 0 || call.id == RequestId::kMotionEnd) return false;
-  return ++motion_calls_ > 1;
 }
 
 bool Interpreter::legal(const RequestCall& call) {
@@ -103,85 +95,9 @@ bool Interpreter::legal(const RequestCall& call) {
   return false;
 }
 
-/// True when the request became part of an object or inline archive.
-bool Interpreter::record(const RequestCall& call) {
-  if (recording_.depth == 0) return false;
-  if (call.id == recording_.begin) ++recording_.depth;
-  if (call.id == recording_.end && recording_.depth == 1) return false;
-  if (call.id == recording_.end) --recording_.depth;
-  recording_.calls->push_back(call);
-  return true;
-}
-
-namespace {
-
-constexpr int kMaxArchiveDepth = 64;
-constexpr size_t kMaxUnpacked = size_t{1} << 30;
-
-} // namespace
-
-void Interpreter::replay(const RequestCall& call, const std::vector<RequestCall>& calls) {
-  if (depth_ >= kMaxArchiveDepth) {
-    error(call, fmt::format("archives and instances are nested more than {} deep", kMaxArchiveDepth));
-    return;
-  }
-  ++depth_;
-  for (const RequestCall& c : calls)
-    request(c);
-  --depth_;
-}
-
-void Interpreter::read_archive(const RequestCall& call) {
-  auto it = archives_.find(call.text(0));
-  if (it != archives_.end()) {
-    auto calls = it->second; // may be redefined by itself
-    replay(call, *calls);
-    return;
-  }
-  if (depth_ >= kMaxArchiveDepth) {
-    error(call, fmt::format("archives and instances are nested more than {} deep", kMaxArchiveDepth));
-    return;
-  }
-  std::vector<std::string> path = options_.search_paths["archive"];
-  if (std::find(path.begin(), path.end(), ".") == path.end()) path.emplace_back(".");
-  auto found = find_file(call.text(0), path);
-  auto text = found ? render::read_file(*found) : std::nullopt;
-  if (!text) {
-    error_at(call.arguments[0].where, call,
-             fmt::format("no archive \"{}\" in the search path \"{}\"", call.text(0), fmt::join(path, ":")));
-    return;
-  }
-  ++depth_;
-  read_text(*found, std::move(*text));
-  --depth_;
-}
-
-bool Interpreter::read_file(const std::string& name) {
-  auto text = render::read_file(name);
-  if (!text) return false;
-  read_text(name, std::move(*text));
-  return true;
-}
-
-void Interpreter::read_text(std::string name, std::string text) {
-  std::string problem;
-  if (is_gzip(text)) {
-    Unpacked unpacked = unpack_gzip(text, kMaxUnpacked);
-    text = std::move(unpacked.text);
-    problem = std::move(unpacked.error);
-  }
-  EndMarkFinder finder;
-  finder.find(text);
-  // Lines of an encoded file would be noise in messages, so its text is not kept.
-  bool encoded = finder.saw_encoded();
-  slvm::FileId file = sources_.add(std::move(name), encoded ? std::string() : std::move(text));
-  if (!problem.empty()) diagnostics_.error({file, 1, 1, 1}, problem);
-  parse_rib(encoded ? text : sources_.text(file), file, *this, diagnostics_);
-}
-
 void Interpreter::finish() {
   if (recording_.depth > 0)
-    diagnostics_.error(blocks_.empty() ? slvm::SourceRange{} : blocks_.back().where,
+    diagnostics_.error(recording_.where,
                        fmt::format("{} \"{}\" is not closed by {}", request_info(recording_.begin).name,
                                    recording_.name, request_info(recording_.end).name));
   for (const Block& b : blocks_)
@@ -201,19 +117,49 @@ void Interpreter::error(const RequestCall& call, std::string_view text) {
 }
 
 void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std::string_view text) {
+  if (error_handler_ == ErrorHandling::kIgnore) return;
   diagnostics_.error(where, fmt::format("{}: {}", call.info().name, text));
 }
 
 void Interpreter::warn(const RequestCall& call, std::string_view text) {
+  if (error_handler_ == ErrorHandling::kIgnore) return;
   diagnostics_.warning(call.where, "rib", fmt::format("{}: {}", call.info().name, text));
 }
 
 void Interpreter::warn_once(std::string key, slvm::SourceRange where, std::string_view name,
                             std::string text) {
+  if (error_handler_ == ErrorHandling::kIgnore) return;
   if (warned_.insert(std::move(key)).second) diagnostics_.warning(where, name, std::move(text));
 }
 
 void Interpreter::accept(const RequestCall&) {}
+
+void Interpreter::error_handler(const RequestCall& call) {
+  constexpr std::pair<std::string_view, ErrorHandling> kNames[] = {
+      {"ignore", ErrorHandling::kIgnore}, {"print", ErrorHandling::kPrint}, {"abort", ErrorHandling::kAbort}};
+  for (auto [name, value] : kNames)
+    if (name == call.text(0)) {
+      error_handler_ = value;
+      return;
+    }
+  error_at(call.arguments[0].where, call,
+           fmt::format("unknown handler \"{}\"; known are ignore, print, abort", call.text(0)));
+}
+
+/// After an error under ErrorHandler "abort", and when archives have replayed more than anyone can want.
+bool Interpreter::stopped(const RequestCall& call) {
+  if (error_handler_ == ErrorHandling::kAbort && diagnostics_.has_errors() && !stopped_) {
+    stopped_ = true;
+    warn(call, "after an error ErrorHandler \"abort\" ends the scene here; the rest is not read");
+  }
+  if (depth_ > 0 && !stopped_ && ++replayed_ > most_replayed) {
+    stopped_ = true;
+    error(call,
+          fmt::format("archives and instances have repeated more than {} requests; the rest is not read",
+                      most_replayed));
+  }
+  return stopped_;
+}
 
 void Interpreter::declare(const RequestCall& call) {
   auto d = declarations_.declare(call.text(0), call.text(1));

@@ -40,6 +40,9 @@ public:
   Options& options() { return options_; }
   /// Called with the options at each WorldBegin: command-line overrides.
   std::function<void(Options&)> override_options;
+  /// Requests archives and instances may repeat in all. A few levels that each read the next one ten times
+  /// are harmless; a row of levels that each read the next one twice never ends.
+  size_t most_replayed = 100'000'000;
   /// Directories "@" stands for in search paths, by kind of path.
   std::map<std::string, std::vector<std::string>> standard_paths;
 
@@ -51,6 +54,9 @@ private:
     std::shared_ptr<Attributes> attributes;
     Matrix4 ctm;
     std::optional<Options> options;
+    // of conditions
+    bool taken = false;       ///< one of its branches was
+    bool last_branch = false; ///< Else has been seen
   };
   /// Requests kept for ObjectInstance or ArchiveInstance.
   struct Recording {
@@ -58,6 +64,7 @@ private:
     std::string name;
     int depth = 0;
     std::shared_ptr<std::vector<RequestCall>> calls;
+    slvm::SourceRange where;
   };
   using Handler = void (Interpreter::*)(const RequestCall&);
   static Handler handler(RequestId);
@@ -71,7 +78,15 @@ private:
   bool legal(const RequestCall&);
   bool skipped(const RequestCall&);
   bool record(const RequestCall&);
+  void carry_out(const RequestCall&);
+  bool stopped(const RequestCall&);
+  bool nested_too_deep(const RequestCall&);
   void replay(const RequestCall&, const std::vector<RequestCall>& calls);
+  void replay_archive(const RequestCall&, const std::vector<RequestCall>& calls);
+  /// A copy whose strings hold the values of state variables; nothing when there are none in it.
+  std::optional<RequestCall> substitute(const RequestCall&);
+  std::optional<slvm::Value> state_variable(std::string_view name) const;
+  bool condition_holds(const RequestCall&);
 
   // blocks
   void open(const RequestCall&, BlockKind);
@@ -99,6 +114,7 @@ private:
   void if_end(const RequestCall&);
   void declare(const RequestCall&);
   void version(const RequestCall&);
+  void error_handler(const RequestCall&);
   void accept(const RequestCall&);
 
   // options
@@ -183,6 +199,15 @@ private:
   int motion_calls_ = -1; ///< requests seen in the open motion block; -1: none is open
   int skip_depth_ = 0;    ///< > 0: in a branch that is not taken, so many conditions deep
   int depth_ = 0;         ///< of archives and instances
+  int inline_depth_ = 0;  ///< of inline archives among them
+  size_t replayed_ = 0;   ///< requests that came from archives and instances
+  bool stopped_ = false;  ///< what follows is not carried out
+  enum class ErrorHandling : uint8_t { kIgnore, kPrint, kAbort };
+  ErrorHandling error_handler_ = ErrorHandling::kPrint;
+  std::string scene_folder_; ///< of the file given by the user
+  std::string folder_;       ///< of the file being read
+  /// Archives read so far, so that one read often is kept once. Encoded ones are not in it.
+  std::map<std::string, slvm::FileId> archive_files_;
 };
 
 } // namespace render

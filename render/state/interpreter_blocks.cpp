@@ -1,7 +1,9 @@
-// Blocks: frames, worlds, attributes, transformations, motion, solids, objects, archives, conditions.
+// Blocks: frames, worlds, attributes, transformations, motion, solids.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace render {
 
@@ -15,7 +17,7 @@ constexpr std::string_view kBlockNames[] = {"FrameBegin", "WorldBegin",  "Attrib
 
 void Interpreter::open(const RequestCall& call, BlockKind kind) {
   if (blocks_.size() == kMaxBlocks) error(call, fmt::format("more than {} nested blocks", kMaxBlocks));
-  blocks_.push_back({kind, call.where, attributes_, ctm_, {}});
+  blocks_.push_back({kind, call.where, attributes_, ctm_, {}, false, false});
 }
 
 /// Restores what the innermost block of this kind saved. Blocks left open inside it are reported and closed
@@ -63,6 +65,12 @@ void Interpreter::world_begin(const RequestCall& call) {
   scene_ = {};
   scene_.world_to_camera = ctm_;
   scene_.options = options_;
+  // Scenes are often made to be rendered from their own folder.
+  for (const char* kind : {"shader", "texture", "archive"}) {
+    auto& path = scene_.options.search_paths[kind];
+    if (!scene_folder_.empty() && std::find(path.begin(), path.end(), scene_folder_) == path.end())
+      path.push_back(scene_folder_);
+  }
   if (override_options) override_options(scene_.options);
 }
 
@@ -103,71 +111,6 @@ void Interpreter::motion_begin(const RequestCall& call) {
 void Interpreter::motion_end(const RequestCall& call) {
   close(call, BlockKind::kMotion);
   motion_calls_ = -1;
-}
-
-void Interpreter::object_begin(const RequestCall& call) {
-  recording_ = {call.id, RequestId::kObjectEnd, call.text(0), 1,
-                std::make_shared<std::vector<RequestCall>>()};
-}
-
-void Interpreter::archive_begin(const RequestCall& call) {
-  recording_ = {call.id, RequestId::kArchiveEnd, call.text(0), 1,
-                std::make_shared<std::vector<RequestCall>>()};
-}
-
-/// ObjectEnd and ArchiveEnd.
-void Interpreter::recording_end(const RequestCall& call) {
-  if (recording_.depth == 0) {
-    bool object = call.id == RequestId::kObjectEnd;
-    error(call, fmt::format("there is no open {}; the request is skipped",
-                            object ? "ObjectBegin" : "ArchiveBegin"));
-    return;
-  }
-  bool object = recording_.begin == RequestId::kObjectBegin;
-  (object ? objects_ : archives_)[recording_.name] = recording_.calls;
-  recording_ = {};
-}
-
-void Interpreter::object_instance(const RequestCall& call) {
-  auto it = objects_.find(call.text(0));
-  if (it == objects_.end()) {
-    error_at(call.arguments[0].where, call, fmt::format("no object \"{}\" was recorded", call.text(0)));
-    return;
-  }
-  auto calls = it->second;
-  // What an object changes of the state must not leak to what follows.
-  auto attributes = attributes_;
-  Matrix4 ctm = ctm_;
-  replay(call, *calls);
-  attributes_ = attributes;
-  ctm_ = ctm;
-}
-
-void Interpreter::archive_instance(const RequestCall& call) {
-  auto it = archives_.find(call.text(0));
-  if (it == archives_.end()) {
-    error_at(call.arguments[0].where, call, fmt::format("no archive \"{}\" was recorded", call.text(0)));
-    return;
-  }
-  auto calls = it->second;
-  replay(call, *calls);
-}
-
-void Interpreter::if_begin(const RequestCall& call) {
-  open(call, BlockKind::kCondition);
-}
-
-/// The first branch was taken: everything up to the end of the condition is passed over.
-void Interpreter::else_branch(const RequestCall& call) {
-  if (blocks_.empty() || blocks_.back().kind != BlockKind::kCondition) {
-    error(call, "there is no open IfBegin; the request is skipped");
-    return;
-  }
-  skip_depth_ = 1;
-}
-
-void Interpreter::if_end(const RequestCall& call) {
-  close(call, BlockKind::kCondition);
 }
 
 } // namespace render

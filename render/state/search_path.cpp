@@ -75,17 +75,34 @@ std::vector<std::string> parse_search_path(std::string_view text, const std::vec
   return out;
 }
 
-std::optional<std::string> find_file(std::string_view name, const std::vector<std::string>& directories) {
+namespace {
+
+std::optional<std::string> find_in(const std::filesystem::path& path,
+                                   const std::vector<std::string>& directories) {
   namespace fs = std::filesystem;
   std::error_code error;
-  fs::path path(name);
-  if (path.is_absolute())
-    return fs::is_regular_file(path, error) ? std::optional(path.string()) : std::nullopt;
   for (const std::string& directory : directories) {
     fs::path candidate = fs::path(directory) / path;
     if (fs::is_regular_file(candidate, error)) return candidate.lexically_normal().string();
   }
   return {};
+}
+
+} // namespace
+
+std::optional<std::string> find_file(std::string_view name, const std::vector<std::string>& directories) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path path(name);
+  if (path.is_absolute()) {
+    if (fs::is_regular_file(path, error)) return path.string();
+  } else if (auto found = find_in(path, directories)) {
+    return found;
+  }
+  // "C:\\models\\ball.rib" and "/usr/anna/ball.rib" of another machine: the file may have come along.
+  std::string_view base = name.substr(name.find_last_of("/\\") + 1); // npos + 1 is 0
+  if (base == name || base.empty()) return {};
+  return find_in(fs::path(base), directories);
 }
 
 std::optional<std::string> read_file(const std::string& path) {

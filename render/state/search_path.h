@@ -13,7 +13,8 @@ namespace render {
 std::vector<std::string> parse_search_path(std::string_view text, const std::vector<std::string>& previous,
                                            const std::vector<std::string>& standard);
 
-/// The first of the directories that has the file; an absolute name is only checked to exist.
+/// The first of the directories that has the file. A name with folders that do not exist here, as files from
+/// other machines have, is looked for without them.
 std::optional<std::string> find_file(std::string_view name, const std::vector<std::string>& directories);
 
 /// The whole file, or nothing when it cannot be read.

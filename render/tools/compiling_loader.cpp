@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <span>
 
@@ -74,7 +75,8 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
   if (!messages.empty()) show_(messages);
   if (diagnostics.has_errors()) return slvm::Error{fmt::format("\"{}\" does not compile", file)};
   for (const slc::CompiledShader& shader : shaders) {
-    if (shader.program.name != name) continue;
+    // The name may come with folders.
+    if (shader.program.name != name && shader.program.name != std::filesystem::path(file).stem()) continue;
     std::vector<std::byte> bytes = slvm::write_slo(shader.program);
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }

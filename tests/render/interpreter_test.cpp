@@ -95,13 +95,6 @@ TEST(Interpreter, only_the_first_sample_of_a_motion_block_counts) {
   EXPECT_THAT(r.messages, HasSubstr("MotionBegin is not supported yet: only the first sample"));
 }
 
-TEST(Interpreter, the_first_branch_of_a_condition_is_taken) {
-  Scene s =
-      scene_of("WorldBegin IfBegin \"1\" Disk 0 1 360 ElseIf \"0\" Disk 0 2 360 IfBegin \"x\" IfEnd Else "
-               "Disk 0 3 360 IfEnd WorldEnd");
-  EXPECT_EQ(s.primitives.size(), 1u);
-}
-
 TEST(Interpreter, requests_without_effect_are_named_once) {
   std::string m = messages_of("WorldBegin\nPoints \"P\" [0 0 0]\nPoints \"P\" [0 0 0]\nWorldEnd");
   EXPECT_THAT(m, HasSubstr("test.rib:2:1: warning: Points is not supported yet: the points are missing"));
@@ -113,6 +106,18 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
   EXPECT_THAT(messages_of("Option \"statistics\" \"endofframe\" 1"),
               HasSubstr("Option \"statistics\" has no effect"));
   EXPECT_THAT(messages_of("Hider \"photon\""), HasSubstr("Hider \"photon\" is not supported yet"));
+}
+
+TEST(Interpreter, error_handlers) {
+  EXPECT_EQ(messages_of("ErrorHandler \"ignore\" Sides 3 ShadingRate 0 Frobnicate 1"), "");
+  EXPECT_THAT(messages_of("ErrorHandler \"ignore\" ErrorHandler \"print\" Sides 3"),
+              HasSubstr("1 or 2 sides"));
+  std::string m = messages_of("ErrorHandler \"abort\" Sides 3\nSides 4 Sides 5");
+  EXPECT_THAT(m, HasSubstr("1 or 2 sides"));
+  EXPECT_THAT(
+      m,
+      HasSubstr("test.rib:2:1: warning: Sides: after an error ErrorHandler \"abort\" ends the scene here"));
+  EXPECT_THAT(m, Not(HasSubstr("2:1: error")));
 }
 
 TEST(Interpreter, requests_in_the_wrong_place) {
@@ -127,6 +132,8 @@ TEST(Interpreter, requests_in_the_wrong_place) {
   EXPECT_THAT(messages_of("AttributeBegin WorldBegin AttributeEnd WorldEnd AttributeEnd"),
               HasSubstr("AttributeEnd: there is no open AttributeBegin"));
   EXPECT_THAT(messages_of("WorldBegin"), HasSubstr("nothing is rendered: WorldEnd is missing"));
+  EXPECT_THAT(messages_of("ArchiveBegin \"a\""),
+              HasSubstr("1:1: error: ArchiveBegin \"a\" is not closed by ArchiveEnd"));
   EXPECT_THAT(messages_of("ObjectEnd"), HasSubstr("ObjectEnd: there is no open ObjectBegin"));
   EXPECT_THAT(messages_of("Else"), HasSubstr("Else: there is no open IfBegin"));
 }
@@ -154,6 +161,7 @@ TEST(Interpreter, values_out_of_range) {
       {"Declare \"x\" \"varyin color\"", "\"varyin color\" is not a declaration"},
       {"Declare \"x\" \"float[0]\"", "'0' is not an array length"},
       {"Display \"a.tiff\" \"rgba\" \"x\"", "\"rgba\" is a mode; the type is missing"},
+      {"ErrorHandler \"panic\"", "unknown handler \"panic\"; known are ignore, print, abort"},
       {"ReadArchive \"nowhere.rib\"", "no archive \"nowhere.rib\" in the search path \".\""},
       {"WorldBegin ObjectInstance 1 WorldEnd", "no object \"1\" was recorded"},
   };

@@ -1,0 +1,169 @@
+// Files, archives and retained objects: reading, recording and replaying requests.
+#include "render/state/interpreter.h"
+
+#include "render/rib/encoding.h"
+#include "render/rib/gzip.h"
+#include "render/rib/parser.h"
+#include "render/state/search_path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace render {
+
+namespace {
+
+constexpr int kMaxArchiveDepth = 64;
+/// Bytes a compressed file may unpack to.
+constexpr size_t kMaxUnpacked = size_t{1} << 30;
+
+std::string folder_of(const std::string& name) {
+  return std::filesystem::path(name).parent_path().string();
+}
+
+} // namespace
+
+bool Interpreter::read_file(const std::string& name) {
+  auto text = render::read_file(name);
+  if (!text) return false;
+  if (depth_ == 0) scene_folder_ = folder_of(name);
+  read_text(name, std::move(*text));
+  return true;
+}
+
+void Interpreter::read_text(std::string name, std::string text) {
+  std::string problem;
+  if (is_gzip(text)) {
+    Unpacked unpacked = unpack_gzip(text, kMaxUnpacked);
+    text = std::move(unpacked.text);
+    problem = std::move(unpacked.error);
+  }
+  EndMarkFinder finder;
+  finder.find(text);
+  // Lines of an encoded file would be noise in messages, so its text is not kept.
+  bool encoded = finder.saw_encoded();
+  std::string outer_folder = std::exchange(folder_, folder_of(name));
+  std::string key = name;
+  slvm::FileId file = sources_.add(std::move(name), encoded ? std::string() : std::move(text));
+  if (!problem.empty()) diagnostics_.error({file, 1, 1, 1}, problem);
+  if (!encoded && problem.empty() && depth_ > 0) archive_files_[key] = file;
+  parse_rib(encoded ? text : sources_.text(file), file, *this, diagnostics_);
+  folder_ = outer_folder;
+}
+
+/// True when the request became part of an object or inline archive.
+bool Interpreter::record(const RequestCall& call) {
+  if (recording_.depth == 0) return false;
+  if (call.id == recording_.begin) ++recording_.depth;
+  if (call.id == recording_.end && recording_.depth == 1) return false;
+  if (call.id == recording_.end) --recording_.depth;
+  recording_.calls->push_back(call);
+  return true;
+}
+
+bool Interpreter::nested_too_deep(const RequestCall& call) {
+  if (depth_ < kMaxArchiveDepth) return false;
+  error(call, fmt::format("archives and instances are nested more than {} deep", kMaxArchiveDepth));
+  return true;
+}
+
+void Interpreter::replay(const RequestCall& call, const std::vector<RequestCall>& calls) {
+  if (nested_too_deep(call)) return;
+  ++depth_;
+  for (const RequestCall& c : calls) {
+    if (stopped_) break;
+    request(c);
+  }
+  --depth_;
+}
+
+/// The state at the instance fills in the variables of the archive's strings.
+void Interpreter::replay_archive(const RequestCall& call, const std::vector<RequestCall>& calls) {
+  ++inline_depth_;
+  replay(call, calls);
+  --inline_depth_;
+}
+
+void Interpreter::read_archive(const RequestCall& call) {
+  auto it = archives_.find(call.text(0));
+  if (it != archives_.end()) {
+    auto calls = it->second; // may be redefined by itself
+    replay_archive(call, *calls);
+    return;
+  }
+  if (nested_too_deep(call)) return;
+  std::vector<std::string> path = options_.search_paths["archive"];
+  for (const std::string& folder : {std::string("."), folder_, scene_folder_})
+    if (!folder.empty() && std::find(path.begin(), path.end(), folder) == path.end()) path.push_back(folder);
+  auto found = find_file(call.text(0), path);
+  if (found && !found->ends_with(std::filesystem::path(call.text(0)).lexically_normal().string()))
+    warn_once("archive " + call.text(0), call.arguments[0].where, "rib-path",
+              fmt::format("there is no \"{}\"; \"{}\" is read instead", call.text(0), *found));
+  auto known = found ? archive_files_.find(*found) : archive_files_.end();
+  ++depth_;
+  if (known != archive_files_.end()) {
+    std::string outer_folder = std::exchange(folder_, folder_of(*found));
+    parse_rib(sources_.text(known->second), known->second, *this, diagnostics_);
+    folder_ = outer_folder;
+  } else if (auto text = found ? render::read_file(*found) : std::nullopt) {
+    read_text(*found, std::move(*text));
+  } else {
+    error_at(call.arguments[0].where, call,
+             fmt::format("no archive \"{}\" in the search path \"{}\"", call.text(0), fmt::join(path, ":")));
+  }
+  --depth_;
+}
+
+void Interpreter::object_begin(const RequestCall& call) {
+  recording_ = {
+      call.id,   RequestId::kObjectEnd, call.text(0), 1, std::make_shared<std::vector<RequestCall>>(),
+      call.where};
+}
+
+void Interpreter::archive_begin(const RequestCall& call) {
+  recording_ = {
+      call.id,   RequestId::kArchiveEnd, call.text(0), 1, std::make_shared<std::vector<RequestCall>>(),
+      call.where};
+}
+
+/// ObjectEnd and ArchiveEnd.
+void Interpreter::recording_end(const RequestCall& call) {
+  if (recording_.depth == 0) {
+    bool object = call.id == RequestId::kObjectEnd;
+    error(call, fmt::format("there is no open {}; the request is skipped",
+                            object ? "ObjectBegin" : "ArchiveBegin"));
+    return;
+  }
+  bool object = recording_.begin == RequestId::kObjectBegin;
+  (object ? objects_ : archives_)[recording_.name] = recording_.calls;
+  recording_ = {};
+}
+
+void Interpreter::object_instance(const RequestCall& call) {
+  auto it = objects_.find(call.text(0));
+  if (it == objects_.end()) {
+    error_at(call.arguments[0].where, call, fmt::format("no object \"{}\" was recorded", call.text(0)));
+    return;
+  }
+  auto calls = it->second;
+  // What an object changes of the state must not leak to what follows.
+  auto attributes = attributes_;
+  Matrix4 ctm = ctm_;
+  replay(call, *calls);
+  attributes_ = attributes;
+  ctm_ = ctm;
+}
+
+void Interpreter::archive_instance(const RequestCall& call) {
+  auto it = archives_.find(call.text(0));
+  if (it == archives_.end()) {
+    error_at(call.arguments[0].where, call, fmt::format("no archive \"{}\" was recorded", call.text(0)));
+    return;
+  }
+  auto calls = it->second;
+  replay_archive(call, *calls);
+}
+
+} // namespace render

@@ -1,0 +1,79 @@
+// The standard names: RISpec 3.2, section 15.8, and the "Ri:" prefix of later renderers.
+#include "render/state/state_values.h"
+
+#include <fmt/format.h>
+
+namespace render {
+
+namespace {
+
+using slvm::Type;
+using slvm::Value;
+
+Value number(float x) {
+  return {Type::kFloat, 0, {x}, {}};
+}
+Value number(int x) {
+  return number(static_cast<float>(x));
+}
+Value numbers(std::vector<float> x) {
+  auto n = static_cast<uint32_t>(x.size());
+  return {Type::kFloat, n, std::move(x), {}};
+}
+Value colour(Color c) {
+  return {Type::kColor, 0, {c.x, c.y, c.z}, {}};
+}
+Value text(std::string_view s) {
+  return {Type::kString, 0, {}, {std::string(s)}};
+}
+
+std::string_view without_prefix(std::string_view name) {
+  if (name.starts_with("Ri:")) name.remove_prefix(3);
+  return name;
+}
+
+std::string_view orientation_name(Orientation o) {
+  constexpr std::string_view kNames[] = {"outside", "inside", "lh", "rh"};
+  return kNames[static_cast<size_t>(o)];
+}
+
+std::optional<Value> named_value(const std::map<std::string, Value>& named, std::string_view name) {
+  auto it = named.find(std::string(name));
+  if (it == named.end()) return {};
+  return it->second;
+}
+
+} // namespace
+
+std::optional<Value> option_value(const Options& o, std::string_view name) {
+  std::string_view n = without_prefix(name);
+  if (n == "Format") return numbers({static_cast<float>(o.xres), static_cast<float>(o.yres), o.pixel_aspect});
+  if (n == "CropWindow") return numbers({o.crop.begin(), o.crop.end()});
+  if (n == "FrameAspectRatio") return number(o.aspect());
+  if (n == "Shutter") return numbers({o.shutter_open, o.shutter_close});
+  if (n == "Clipping") return numbers({o.near_plane, o.far_plane});
+  if (n == "PixelSamples") return numbers({static_cast<float>(o.xsamples), static_cast<float>(o.ysamples)});
+  if (n == "DepthOfField") return numbers({kInfinity, 0, 0});
+  if (n == "Frame") return number(o.frame);
+  return named_value(o.named, name);
+}
+
+std::optional<Value> attribute_value(const Attributes& a, std::string_view name) {
+  std::string_view n = without_prefix(name);
+  if (n == "ShadingRate") return number(a.shading_rate);
+  if (n == "Sides") return number(a.sides);
+  if (n == "Matte" || n == "matte") return number(a.matte ? 1 : 0);
+  if (n == "Color") return colour(a.color);
+  if (n == "Opacity") return colour(a.opacity);
+  if (n == "TextureCoordinates") return numbers({a.texture_coordinates.begin(), a.texture_coordinates.end()});
+  if (n == "Orientation") return text(orientation_name(a.orientation));
+  if (n == "ShadingInterpolation") return text(a.smooth_shading ? "smooth" : "constant");
+  return named_value(a.named, name);
+}
+
+std::string text_of(const Value& value) {
+  if (value.type == Type::kString) return fmt::format("{}", fmt::join(value.strings, " "));
+  return fmt::format("{:g}", fmt::join(value.numbers, " "));
+}
+
+} // namespace render
