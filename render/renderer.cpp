@@ -19,6 +19,8 @@ struct Renderer::Impl {
       : diagnostics(d), settings(std::move(s)), cache(machine, settings.shader_loader),
         interpreter(sources, d, [this](Scene& scene) { render(scene); }) {
     interpreter.override_options = settings.override_options;
+    interpreter.allow_programs = settings.allow_programs;
+    interpreter.program_limits.seconds = settings.program_seconds;
   }
 
   void render(Scene& scene);

@@ -22,6 +22,10 @@ namespace render {
 
 struct RendererSettings {
   int threads = 0; ///< 0: all processors
+  /// Whether scenes may run the programs they name (Procedural "RunProgram"), and how long these may be
+  /// silent.
+  bool allow_programs = false;
+  double program_seconds = 60;
   ShaderLoader shader_loader = load_compiled_shader;
   /// Called with each frame's options at WorldBegin, after the file's own: command-line overrides.
   std::function<void(Options&)> override_options;

@@ -36,6 +36,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kIfBegin, &I::if_begin), set(kElseIf, &I::else_branch), set(kElse, &I::else_branch),
         set(kIfEnd, &I::if_end);
     set(kDeclare, &I::declare), set(kversion, &I::version), set(kBound, &I::accept);
+    set(kProcedural, &I::procedural);
     set(kErrorHandler, &I::error_handler);
 
     set(kFormat, &I::format), set(kFrameAspectRatio, &I::frame_aspect_ratio);

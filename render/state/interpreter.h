@@ -3,6 +3,8 @@
 #pragma once
 
 #include "render/rib/ri_target.h"
+#include "render/state/procedural.h"
+#include "render/state/program.h"
 #include "render/state/scene.h"
 #include "slvm/support/diagnostics.h"
 
@@ -43,6 +45,9 @@ public:
   /// Requests archives and instances may repeat in all. A few levels that each read the next one ten times
   /// are harmless; a row of levels that each read the next one twice never ends.
   size_t most_replayed = 100'000'000;
+  /// Whether RunProgram may run what a scene names.
+  bool allow_programs = false;
+  ProgramLimits program_limits;
   /// Directories "@" stands for in search paths, by kind of path.
   std::map<std::string, std::vector<std::string>> standard_paths;
 
@@ -108,6 +113,8 @@ private:
   void archive_begin(const RequestCall&);
   void archive_instance(const RequestCall&);
   void read_archive(const RequestCall&);
+  void parse_text(std::string name, std::string text, bool keep);
+  void read_archive_file(const std::string& name, slvm::SourceRange where, std::string_view request);
   void recording_end(const RequestCall&);
   void if_begin(const RequestCall&);
   void else_branch(const RequestCall&);
@@ -178,7 +185,17 @@ private:
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
   bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P);
   std::shared_ptr<const PrimitiveState> primitive_state();
+  /// Farthest a displacement moves a point, in camera space.
+  float displacement_bound_of(const Attributes& attributes, const Matrix4& object_to_camera) const;
   void add_patch(std::shared_ptr<const Geometry>, std::span<const TypedParam> vars);
+
+  // procedurals
+  void procedural(const RequestCall&);
+  void run_procedurals();
+  void run(const Procedural&, float area);
+  void run_program(const Procedural&, float area);
+  slvm::Result<std::unique_ptr<Program>> start_program(const Procedural&);
+  void report(const Procedural&, std::string_view text);
 
   slvm::SourceManager& sources_;
   slvm::Diagnostics& diagnostics_;
@@ -195,6 +212,9 @@ private:
   std::map<std::string, std::shared_ptr<std::vector<RequestCall>>> objects_, archives_;
   Recording recording_;
   Scene scene_;
+  std::vector<Procedural> procedurals_;                      ///< of the world block
+  std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
+  int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
   bool in_world_ = false;
   int motion_calls_ = -1; ///< requests seen in the open motion block; -1: none is open
   int skip_depth_ = 0;    ///< > 0: in a branch that is not taken, so many conditions deep

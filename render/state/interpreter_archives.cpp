@@ -34,6 +34,11 @@ bool Interpreter::read_file(const std::string& name) {
 }
 
 void Interpreter::read_text(std::string name, std::string text) {
+  parse_text(std::move(name), std::move(text), true);
+}
+
+/// `keep`: the text may be shown in messages, and read again.
+void Interpreter::parse_text(std::string name, std::string text, bool keep) {
   std::string problem;
   if (is_gzip(text)) {
     Unpacked unpacked = unpack_gzip(text, kMaxUnpacked);
@@ -42,14 +47,14 @@ void Interpreter::read_text(std::string name, std::string text) {
   }
   EndMarkFinder finder;
   finder.find(text);
-  // Lines of an encoded file would be noise in messages, so its text is not kept.
-  bool encoded = finder.saw_encoded();
+  // Lines of an encoded file would be noise in messages.
+  keep = keep && !finder.saw_encoded();
   std::string outer_folder = std::exchange(folder_, folder_of(name));
   std::string key = name;
-  slvm::FileId file = sources_.add(std::move(name), encoded ? std::string() : std::move(text));
+  slvm::FileId file = sources_.add(std::move(name), keep ? std::move(text) : std::string());
   if (!problem.empty()) diagnostics_.error({file, 1, 1, 1}, problem);
-  if (!encoded && problem.empty() && depth_ > 0) archive_files_[key] = file;
-  parse_rib(encoded ? text : sources_.text(file), file, *this, diagnostics_);
+  if (keep && problem.empty() && depth_ > 0) archive_files_[key] = file;
+  parse_rib(keep ? sources_.text(file) : text, file, *this, diagnostics_);
   folder_ = outer_folder;
 }
 
@@ -94,26 +99,31 @@ void Interpreter::read_archive(const RequestCall& call) {
     return;
   }
   if (nested_too_deep(call)) return;
+  ++depth_;
+  read_archive_file(call.text(0), call.arguments[0].where, "ReadArchive");
+  --depth_;
+}
+
+void Interpreter::read_archive_file(const std::string& name, slvm::SourceRange where,
+                                    std::string_view request) {
   std::vector<std::string> path = options_.search_paths["archive"];
   for (const std::string& folder : {std::string("."), folder_, scene_folder_})
     if (!folder.empty() && std::find(path.begin(), path.end(), folder) == path.end()) path.push_back(folder);
-  auto found = find_file(call.text(0), path);
-  if (found && !found->ends_with(std::filesystem::path(call.text(0)).lexically_normal().string()))
-    warn_once("archive " + call.text(0), call.arguments[0].where, "rib-path",
-              fmt::format("there is no \"{}\"; \"{}\" is read instead", call.text(0), *found));
+  auto found = find_file(name, path);
+  if (found && !found->ends_with(std::filesystem::path(name).lexically_normal().string()))
+    warn_once("archive " + name, where, "rib-path",
+              fmt::format("there is no \"{}\"; \"{}\" is read instead", name, *found));
   auto known = found ? archive_files_.find(*found) : archive_files_.end();
-  ++depth_;
   if (known != archive_files_.end()) {
     std::string outer_folder = std::exchange(folder_, folder_of(*found));
     parse_rib(sources_.text(known->second), known->second, *this, diagnostics_);
     folder_ = outer_folder;
   } else if (auto text = found ? render::read_file(*found) : std::nullopt) {
     read_text(*found, std::move(*text));
-  } else {
-    error_at(call.arguments[0].where, call,
-             fmt::format("no archive \"{}\" in the search path \"{}\"", call.text(0), fmt::join(path, ":")));
+  } else if (error_handler_ != ErrorHandling::kIgnore) {
+    diagnostics_.error(where, fmt::format("{}: no archive \"{}\" in the search path \"{}\"", request, name,
+                                          fmt::join(path, ":")));
   }
-  --depth_;
 }
 
 void Interpreter::object_begin(const RequestCall& call) {

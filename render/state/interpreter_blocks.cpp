@@ -75,12 +75,17 @@ void Interpreter::world_begin(const RequestCall& call) {
 }
 
 void Interpreter::world_end(const RequestCall& call) {
-  scene_.spaces = spaces_;
+  if (procedural_depth_ > 0) {
+    error(call, "a procedural cannot end the world; the request is skipped");
+    return;
+  }
   // Closed first, so that a block left open is reported before a long render.
   close(call, BlockKind::kWorld);
+  run_procedurals();
+  scene_.spaces = spaces_;
   in_world_ = false;
   motion_calls_ = -1;
-  if (render_world_) render_world_(scene_);
+  if (render_world_ && !stopped_) render_world_(scene_);
   scene_ = {};
 }
 

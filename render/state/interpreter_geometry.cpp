@@ -92,25 +92,26 @@ bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam
   return false;
 }
 
+float Interpreter::displacement_bound_of(const Attributes& a, const Matrix4& object_to_camera) const {
+  if (!(a.displacement_sphere > 0)) return 0;
+  Matrix4 m = object_to_camera;
+  if (a.displacement_space == "shader" && a.displacement)
+    m = a.displacement->shader_to_camera;
+  else if (auto space = find_space(a.displacement_space); space && a.displacement_space != "object")
+    m = *space;
+  float longest = 0;
+  for (Vec3 axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+    longest = std::max(longest, glm::length(transform_vector(m, axis)));
+  return a.displacement_sphere * longest;
+}
+
 std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
   auto state = std::make_shared<PrimitiveState>();
   state->attributes = attributes_;
   state->object_to_camera = ctm_;
   state->camera_to_object = inverse_or_identity(ctm_);
   state->mirrored = slvm::determinant3(ctm_) < 0;
-  if (attributes_->displacement_sphere > 0) {
-    const std::string& name = attributes_->displacement_space;
-    const auto& displacement = attributes_->displacement;
-    Matrix4 m = ctm_;
-    if (name == "shader" && displacement)
-      m = displacement->shader_to_camera;
-    else if (auto space = find_space(name))
-      m = *space;
-    float longest = 0;
-    for (Vec3 axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
-      longest = std::max(longest, glm::length(transform_vector(m, axis)));
-    state->displacement_bound = attributes_->displacement_sphere * longest;
-  }
+  state->displacement_bound = displacement_bound_of(*attributes_, ctm_);
   return state;
 }
 

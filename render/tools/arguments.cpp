@@ -16,9 +16,10 @@ namespace render::tools {
 
 namespace {
 
-constexpr std::string_view kLongNames[] = {"help",    "version", "progress", "Progress", "progressformat",
-                                           "crop",    "res",     "cwd",      "shaders",  "archives",
-                                           "threads", "verbose", "nowarn",   "Werror"};
+constexpr std::string_view kLongNames[] = {
+    "help",   "version", "progress",    "Progress",       "progressformat", "crop",
+    "res",    "cwd",     "shaders",     "archives",       "threads",        "verbose",
+    "nowarn", "Werror",  "procedurals", "allow-programs", "program-timeout"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -69,7 +70,7 @@ Arguments parse_arguments(int argc, char** argv) {
   CLI::App app{"slrender: renders RIB scenes with RSL shaders"};
   app.set_help_flag("-h,--help", "print this and leave");
   app.set_version_flag("--version", "slrender 0.1.0 (Anemone)");
-  std::string threads = "all", shaders, archives;
+  std::string threads = "all", shaders, archives, procedurals;
   bool updating = false, lines = false;
   std::vector<float> crop;
   std::vector<int> resolution;
@@ -94,6 +95,12 @@ Arguments parse_arguments(int argc, char** argv) {
                  "directories for shaders, separated by ':' (@: the usual ones); @ in a scene's path "
                  "(environment: ANEMONE_SHADERS)");
   app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
+  app.add_option("--procedurals", procedurals,
+                 "the same for programs that make geometry (environment: ANEMONE_PROCEDURALS)");
+  app.add_flag("--allow-programs", out.allow_programs,
+               "let scenes run the programs they name (Procedural \"RunProgram\")");
+  app.add_option("--program-timeout", out.program_seconds, "seconds such a program may be silent (60)")
+      ->check(CLI::Range(0.01, 1e6));
   app.add_flag(
       "-v,--verbose", [&](auto n) { out.verbosity = 1 + static_cast<int>(n); }, "say what is done");
   app.add_flag("--nowarn", out.no_warnings, "no warnings");
@@ -126,6 +133,7 @@ Arguments parse_arguments(int argc, char** argv) {
   if (out.files.empty()) out.files.emplace_back("-");
   out.shader_path = directories(shaders, "ANEMONE_SHADERS", standard_shader_folders());
   out.archive_path = directories(archives, "ANEMONE_ARCHIVES", {});
+  out.procedural_path = directories(procedurals, "ANEMONE_PROCEDURALS", {});
   return out;
 }
 

@@ -21,6 +21,9 @@ struct Arguments {
   std::string display; ///< a file name or a Display type
   std::string directory;
   std::vector<std::string> shader_path, archive_path;
+  std::vector<std::string> procedural_path;
+  bool allow_programs = false;
+  double program_seconds = 60;
   int verbosity = 1;
   bool warnings_are_errors = false, no_warnings = false;
 

@@ -103,6 +103,8 @@ int run(const Arguments& arguments) {
   Progress progress(arguments);
   render::RendererSettings settings;
   settings.threads = arguments.threads;
+  settings.allow_programs = arguments.allow_programs;
+  settings.program_seconds = arguments.program_seconds;
   settings.shader_loader = render::tools::make_compiling_loader(
       [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
@@ -113,6 +115,7 @@ int run(const Arguments& arguments) {
   render::Renderer renderer(messages.sources, messages.diagnostics, settings);
   renderer.set_standard_path("shader", arguments.shader_path);
   renderer.set_standard_path("archive", arguments.archive_path);
+  renderer.set_standard_path("procedural", arguments.procedural_path);
   bool missing = false;
   for (const std::string& name : arguments.files) {
     if (name == "-") {

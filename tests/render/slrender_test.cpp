@@ -98,6 +98,21 @@ TEST_F(SlrenderTest, progress_for_people_and_farms) {
   EXPECT_THAT(run("-Progress --progressformat 'P={:.0f}' a.rib").text, HasSubstr("P=100\n"));
 }
 
+TEST_F(SlrenderTest, programs_of_a_scene_need_the_users_leave) {
+  fs::create_directories(directory_ / "tools");
+  file("tools/maker", "#!/bin/sh\nwhile read line; do echo Sphere 1 -1 1 360; printf '\\377'; done\n");
+  fs::permissions(directory_ / "tools/maker", fs::perms::owner_all);
+  file("a.rib", "Display \"a.png\" \"png\" \"rgba\" Format 8 8 1 WorldBegin Translate 0 0 5\n"
+                "Procedural \"RunProgram\" [\"maker\" \"\"] [-1 1 -1 1 -1 1] WorldEnd");
+  Outcome refused = run("-procedurals tools a.rib");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.text, HasSubstr("scenes may run programs only with --allow-programs"));
+  Outcome allowed = run("--allow-programs -procedurals tools -program-timeout 5 a.rib");
+  EXPECT_EQ(allowed.text, "");
+  EXPECT_EQ(allowed.status, 0);
+  EXPECT_EQ(run("-program-timeout 0 a.rib").status, 2);
+}
+
 TEST_F(SlrenderTest, exit_codes) {
   file("bad.rib", "Sphere\nWorldBegin WorldEnd\n");
   Outcome bad = run("-d null bad.rib");

@@ -1,0 +1,162 @@
+// Procedurals: kept when they are met, carried out at the end of the world, those the camera sees.
+#include "render/rib/parser.h"
+#include "render/state/interpreter.h"
+#include "render/state/search_path.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <unistd.h>
+
+namespace render {
+
+namespace {
+
+constexpr int kDeepest = 64;
+constexpr size_t kMostProcedurals = 1'000'000;
+
+/// The first word of a RunProgram as a file that can be run: on the path of procedurals, then that of the
+/// environment.
+std::optional<std::string> find_program(const std::string& name, std::vector<std::string> path) {
+  if (const char* environment = std::getenv("PATH"); environment && name.find('/') == std::string::npos)
+    for (std::string& folder : parse_search_path(environment, {}, {}))
+      path.push_back(std::move(folder));
+  auto found = find_file(name, path);
+  if (!found || ::access(found->c_str(), X_OK) != 0) return {};
+  // A bare name would be looked for elsewhere.
+  return found->find('/') == std::string::npos ? "./" + *found : *found;
+}
+
+} // namespace
+
+void Interpreter::procedural(const RequestCall& call) {
+  const std::string& type = call.text(0);
+  bool archive = type == "DelayedReadArchive", program = type == "RunProgram",
+       plug_in = type == "DynamicLoad";
+  if (!archive && !program && !plug_in) {
+    error_at(call.arguments[0].where, call,
+             fmt::format("unknown type \"{}\"; known are DelayedReadArchive, RunProgram, DynamicLoad", type));
+    return;
+  }
+  if (plug_in) {
+    warn_once("DynamicLoad", call.where, "rib-unsupported",
+              "Procedural \"DynamicLoad\" is not supported yet: what the plug-in would make is missing");
+    return;
+  }
+  size_t wanted = archive ? 1 : 2;
+  if (call.texts(1).size() != wanted) {
+    error_at(call.arguments[1].where, call,
+             fmt::format("\"{}\" takes {}, found {}", type,
+                         archive ? "the name of a file" : "a program and the data for it",
+                         call.texts(1).size()));
+    return;
+  }
+  if (procedurals_.size() == kMostProcedurals) {
+    error(call, fmt::format("more than {} procedurals in a frame; the request is skipped", kMostProcedurals));
+    return;
+  }
+  auto b = call.numbers(2);
+  Procedural& p = procedurals_.emplace_back();
+  p.type = type;
+  p.arguments.assign(call.texts(1).begin(), call.texts(1).end());
+  p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
+  p.attributes = attributes_;
+  p.object_to_camera = ctm_;
+  p.folder = folder_;
+  p.depth = procedural_depth_ + 1;
+  p.where = call.where;
+  if (p.bound.empty()) {
+    error_at(call.arguments[2].where, call, "the bound is empty; expected xmin xmax ymin ymax zmin zmax");
+    procedurals_.pop_back();
+  }
+}
+
+/// Called between the closing of the world and its rendering. Those found on the way join the row.
+void Interpreter::run_procedurals() {
+  Camera camera(scene_.options);
+  for (size_t i = 0; i < procedurals_.size() && !stopped_; ++i) {
+    Procedural p = std::move(procedurals_[i]);
+    Box box = transform_box(p.object_to_camera, p.bound);
+    box.grow(displacement_bound_of(*p.attributes, p.object_to_camera));
+    auto area = visible_area(camera, scene_.options, box);
+    if (!area) continue;
+    if (p.depth > kDeepest) {
+      report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
+      continue;
+    }
+    run(p, *area);
+  }
+  procedurals_.clear();
+}
+
+void Interpreter::report(const Procedural& p, std::string_view text) {
+  if (error_handler_ == ErrorHandling::kIgnore) return;
+  diagnostics_.error(p.where, fmt::format("Procedural: {} \"{}\": {}", p.type, p.arguments[0], text));
+}
+
+/// With the state of the request; what it changes ends with it.
+void Interpreter::run(const Procedural& p, float area) {
+  auto attributes = std::exchange(attributes_, p.attributes);
+  Matrix4 ctm = std::exchange(ctm_, p.object_to_camera);
+  std::string folder = std::exchange(folder_, p.folder);
+  std::vector<Block> blocks = std::exchange(blocks_, {});
+  procedural_depth_ = p.depth;
+  ++depth_;
+  if (p.type == "DelayedReadArchive")
+    read_archive_file(p.arguments[0], p.where, "Procedural");
+  else
+    run_program(p, area);
+  --depth_;
+  procedural_depth_ = 0;
+  if (recording_.depth > 0 || !blocks_.empty()) report(p, "a block is left open at its end");
+  recording_ = {};
+  skip_depth_ = 0;
+  motion_calls_ = -1;
+  blocks_ = std::move(blocks);
+  folder_ = folder;
+  ctm_ = ctm;
+  attributes_ = attributes;
+}
+
+void Interpreter::run_program(const Procedural& p, float area) {
+  const std::string& name = p.arguments[0];
+  auto it = programs_.find(name);
+  if (it == programs_.end()) {
+    it = programs_.emplace(name, nullptr).first;
+    auto started = start_program(p);
+    if (!started) {
+      report(p, started.error());
+      return;
+    }
+    it->second = std::move(*started);
+  }
+  if (!it->second) return; // it failed before, and that was said
+  auto answer = it->second->ask(fmt::format("{:g} {}\n", area, p.arguments[1]), program_limits);
+  if (!answer) {
+    report(p, answer.error());
+    it->second.reset();
+    return;
+  }
+  parse_text(fmt::format("<{}>", name), std::move(*answer), false);
+}
+
+slvm::Result<std::unique_ptr<Program>> Interpreter::start_program(const Procedural& p) {
+  if (!allow_programs) return slvm::Error{"scenes may run programs only with --allow-programs"};
+  std::vector<std::string> command;
+  std::istringstream words(p.arguments[0]);
+  for (std::string word; words >> word;)
+    command.push_back(word);
+  if (command.empty()) return slvm::Error{"there is no program of this name"};
+  std::vector<std::string> path = options_.search_paths["procedural"];
+  for (const std::string& folder : {std::string("."), p.folder, scene_folder_})
+    if (!folder.empty()) path.push_back(folder);
+  auto file = find_program(command[0], path);
+  if (!file)
+    return slvm::Error{fmt::format("no such program in the search path \"{}\"", fmt::join(path, ":"))};
+  command[0] = *file;
+  return Program::start(command);
+}
+
+} // namespace render
