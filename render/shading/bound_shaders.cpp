@@ -28,6 +28,16 @@ const slvm::Param* find_param(const slvm::Shader& shader, const std::string& nam
   return nullptr;
 }
 
+/// What is done without a shader.
+std::string_view instead_of(RequestId id) {
+  switch (id) {
+  case RequestId::kSurface: return "the default surface is drawn instead";
+  case RequestId::kLightSource:
+  case RequestId::kAreaLightSource: return "it gives no light";
+  default: return "the picture is made without it";
+  }
+}
+
 /// hpoints lose their weight; other numbers stay as they are.
 std::vector<float> shader_numbers(const ShaderParam& p) {
   if (!p.declaration || !p.declaration->hpoint) return p.numbers;
@@ -68,6 +78,10 @@ private:
   std::unique_ptr<slvm::Instance> make(const ShaderRequest& request);
   bool param_value(const ShaderRequest& request, const slvm::Shader& shader, const ShaderParam& p,
                    slvm::ParamValue& out);
+  /// For what old files do and other renderers put up with.
+  void warn(slvm::SourceRange where, const ShaderRequest& request, std::string_view text) {
+    diagnostics_.warning(where, "rib-shader", fmt::format("{}: {}", request_info(request.kind).name, text));
+  }
   void error(slvm::SourceRange where, const ShaderRequest& request, std::string_view text) {
     diagnostics_.error(where, fmt::format("{}: {}", request_info(request.kind).name, text));
   }
@@ -115,7 +129,12 @@ std::unique_ptr<slvm::Instance> BoundShaders::Binder::make(const ShaderRequest& 
   auto shader = cache_.find(request.name, path);
   if (!shader) {
     // A missing shader is often named by every object: once is enough.
-    if (missing_.insert(request.name).second) error(request.where, request, shader.error());
+    if (!missing_.insert(request.name).second) return nullptr;
+    std::string text = fmt::format("{}; {}", shader.error(), instead_of(request.kind));
+    if (shader.error() == no_such_shader(request.name, path).text)
+      warn(request.where, request, text);
+    else
+      error(request.where, request, text);
     return nullptr;
   }
   slvm::ShaderKind kind = (*shader)->kind(), wanted = wanted_kind(request.kind);
@@ -146,9 +165,9 @@ bool BoundShaders::Binder::param_value(const ShaderRequest& request, const slvm:
     for (const slvm::Param& q : shader.program().params)
       names.push_back(q.name);
     std::string_view near = slvm::nearest_name(p.name, names);
-    error(p.where, request,
-          fmt::format("shader \"{}\" has no parameter \"{}\"{}", request.name, p.name,
-                      near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    warn(p.where, request,
+         fmt::format("shader \"{}\" has no parameter \"{}\"{}", request.name, p.name,
+                     near.empty() ? "; it is ignored" : fmt::format("; did you mean \"{}\"?", near)));
     return false;
   }
   out.name = p.name;

@@ -98,6 +98,7 @@ private:
   bool close(const RequestCall&, BlockKind);
   void frame_begin(const RequestCall&);
   void frame_end(const RequestCall&);
+  void add_last_folders(Options&) const;
   void world_begin(const RequestCall&);
   void world_end(const RequestCall&);
   void attribute_begin(const RequestCall&);

@@ -59,18 +59,27 @@ void Interpreter::frame_end(const RequestCall& call) {
   close(call, BlockKind::kFrame);
 }
 
+/// Scenes are often made to be rendered from their own folder, and with the standard shaders at hand whatever
+/// their own search paths say.
+void Interpreter::add_last_folders(Options& options) const {
+  for (const char* kind : {"shader", "texture", "archive", "procedural"}) {
+    std::vector<std::string> folders{"."};
+    if (!scene_folder_.empty()) folders.push_back(scene_folder_);
+    if (auto it = standard_paths.find(kind); it != standard_paths.end())
+      folders.insert(folders.end(), it->second.begin(), it->second.end());
+    auto& path = options.search_paths[kind];
+    for (const std::string& folder : folders)
+      if (std::find(path.begin(), path.end(), folder) == path.end()) path.push_back(folder);
+  }
+}
+
 void Interpreter::world_begin(const RequestCall& call) {
   open(call, BlockKind::kWorld);
   in_world_ = true;
   scene_ = {};
   scene_.world_to_camera = ctm_;
   scene_.options = options_;
-  // Scenes are often made to be rendered from their own folder.
-  for (const char* kind : {"shader", "texture", "archive"}) {
-    auto& path = scene_.options.search_paths[kind];
-    if (!scene_folder_.empty() && std::find(path.begin(), path.end(), scene_folder_) == path.end())
-      path.push_back(scene_folder_);
-  }
+  add_last_folders(scene_.options);
   if (override_options) override_options(scene_.options);
 }
 

@@ -149,9 +149,8 @@ slvm::Result<std::unique_ptr<Program>> Interpreter::start_program(const Procedur
   for (std::string word; words >> word;)
     command.push_back(word);
   if (command.empty()) return slvm::Error{"there is no program of this name"};
-  std::vector<std::string> path = options_.search_paths["procedural"];
-  for (const std::string& folder : {std::string("."), p.folder, scene_folder_})
-    if (!folder.empty()) path.push_back(folder);
+  std::vector<std::string> path = scene_.options.search_paths["procedural"];
+  if (!p.folder.empty()) path.push_back(p.folder);
   auto file = find_program(command[0], path);
   if (!file)
     return slvm::Error{fmt::format("no such program in the search path \"{}\"", fmt::join(path, ":"))};

@@ -42,7 +42,14 @@ slvm::Result<std::string> CompilingLoader::load(const std::string& name,
     auto bytes = load_compiled_shader(name, path);
     if (!bytes) return bytes;
     auto program = slvm::read_slo(std::as_bytes(std::span(*bytes)));
-    if (!program) return bytes; // whoever loads it says what is wrong
+    if (!program) {
+      // Often it is of another renderer, and its source beside it.
+      auto source = as_it_is ? std::nullopt : find_file(name + ".sl", path);
+      if (!source) return bytes; // whoever loads it says what is wrong
+      show_(fmt::format("slrender: warning: {}: {}; {} is compiled instead\n", *compiled, program.error(),
+                        *source));
+      return compile(*source, name, path);
+    }
     std::string warning = slvm::stale_warning(*program, *compiled, !as_it_is);
     if (warning.empty()) return bytes;
     show_(fmt::format("slrender: warning: {}\n", warning));

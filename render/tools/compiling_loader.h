@@ -1,5 +1,6 @@
-// A shader loader that also takes sources: when the search path has NAME.sl and no NAME.slo, or a NAME.slo
-// whose source has changed since (slvm/format/stale.h), the source is compiled in memory.
+// A shader loader that also takes sources: when the search path has NAME.sl and no NAME.slo, a NAME.slo
+// whose source has changed since (slvm/format/stale.h), or one of another renderer, the source is compiled in
+// memory.
 #pragma once
 
 #include "render/shading/shader_loader.h"

@@ -251,13 +251,16 @@ TEST_F(RendererTest, messages_about_shaders_stand_at_their_request) {
   auto surface = [&](const std::string& request) {
     return render("WorldBegin\n" + request + kSheet + "WorldEnd");
   };
-  EXPECT_THAT(surface("Surface \"shwo\""),
-              HasSubstr("scene.rib:5:1: error: Surface: no shader \"shwo\" in the search path \".\""));
+  EXPECT_THAT(
+      surface("Surface \"shwo\""),
+      HasSubstr("scene.rib:5:1: warning: Surface: no shader \"shwo\" in the search path \".\"; the default "
+                "surface is drawn instead"));
   EXPECT_GT(value(8, 8, 0), 0.9f); // the default surface
   EXPECT_THAT(surface("Surface \"distant\""),
               HasSubstr("error: Surface: \"distant\" is a light shader, not a surface shader"));
-  EXPECT_THAT(surface("Surface \"show\" \"tnit\" [1 0 0]"),
-              HasSubstr("error: Surface: shader \"show\" has no parameter \"tnit\"; did you mean \"tint\"?"));
+  EXPECT_THAT(
+      surface("Surface \"show\" \"tnit\" [1 0 0]"),
+      HasSubstr("warning: Surface: shader \"show\" has no parameter \"tnit\"; did you mean \"tint\"?"));
   EXPECT_THAT(surface("Surface \"show\" \"tint\" [1 0]"),
               HasSubstr("error: Surface: parameter \"tint\" of shader \"show\" takes 3 numbers, found 2"));
   EXPECT_THAT(surface("Surface \"show\" \"k\" \"x\""),

@@ -113,6 +113,25 @@ TEST_F(SlrenderTest, programs_of_a_scene_need_the_users_leave) {
   EXPECT_EQ(run("-program-timeout 0 a.rib").status, 2);
 }
 
+TEST_F(SlrenderTest, old_scenes_render_with_warnings) {
+  file("shiny.slo", "1\n!surface shiny\n");
+  file("shiny.sl", "surface shiny() { Ci = Cs; Oi = 1; }\n");
+  file("a.rib",
+       "Option \"searchpath\" \"shader\" [\"/usr/local/shaders\"] Display \"a.png\" \"png\" \"rgba\"\n"
+       "Format 8 8 1 WorldBegin Surface \"shiny\" \"Kd\" 1 LightSource \"lamp\" 1\n"
+       "Translate 0 0 5 Sphere 1 -1 1 360 Surface \"/usr/anna/shiny\" Sphere 1 -1 1 360\n"
+       "Surface \"nowhere\" Sphere 1 -1 1 360 Surface \"matte\" Sphere 1 -1 1 360 WorldEnd\n");
+  Outcome o = run("a.rib");
+  EXPECT_EQ(o.status, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("warning: shiny.slo: not an Anemone .slo file"));
+  EXPECT_THAT(o.text, HasSubstr("; shiny.sl is compiled instead"));
+  EXPECT_THAT(o.text, HasSubstr("warning: Surface: shader \"shiny\" has no parameter \"Kd\"; it is ignored"));
+  EXPECT_THAT(o.text, HasSubstr("warning: LightSource: no shader \"lamp\" in the search path"));
+  EXPECT_THAT(o.text, HasSubstr("; it gives no light"));
+  EXPECT_THAT(o.text, HasSubstr("; the default surface is drawn instead"));
+  EXPECT_TRUE(exists("a.png"));
+}
+
 TEST_F(SlrenderTest, exit_codes) {
   file("bad.rib", "Sphere\nWorldBegin WorldEnd\n");
   Outcome bad = run("-d null bad.rib");
