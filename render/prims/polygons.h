@@ -22,9 +22,4 @@ struct PolygonFace {
 void add_polygon(const PolygonFace& face, std::span<const Vec3> P, std::span<const TypedParam> vars,
                  const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
 
-/// A variable of a patch: four values (bilinear) or, for a constant or uniform one, value `index`. hpoints
-/// lose their weight.
-PatchVar constant_var(const TypedParam& source, size_t index);
-PatchVar bilinear_var(const TypedParam& source, const std::array<size_t, 4>& indices);
-
 } // namespace render

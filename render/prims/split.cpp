@@ -13,6 +13,8 @@ namespace {
 constexpr int kProbes = 4;
 /// A piece this small in u or v is never split further: its sides would not be distinct floats.
 constexpr float kSmallest = 1e-6f;
+/// Pieces of one primitive that are looked at: beyond, in a scene gone wrong, they are diced as they are.
+constexpr size_t kMostPieces = size_t{1} << 21;
 
 struct Piece {
   UvRect rect;
@@ -54,9 +56,11 @@ private:
   std::vector<GridTask>& out_;
   float step_; ///< side of a micropolygon in pixels
   std::vector<Piece> stack_;
+  size_t pieces_ = 0;
 };
 
 void Splitter::visit(const Piece& piece) {
+  ++pieces_;
   Box box = primitive_.camera_bound(piece.rect);
   // A box that is not a number is of no use to anyone; the negated test catches it.
   if (!(box.max.z >= camera_.near_plane()) || !(box.min.z <= camera_.far_plane()) || outside_frustum(box))
@@ -65,7 +69,7 @@ void Splitter::visit(const Piece& piece) {
   // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the
   // picture.
   bool crosses_eye = camera_.perspective() && box.min.z < camera_.near_plane();
-  if (crosses_eye && piece.eye_splits < settings_.eye_splits) {
+  if (crosses_eye && piece.eye_splits < settings_.eye_splits && pieces_ <= kMostPieces) {
     Extent e = measure(piece.rect, false);
     split(piece, e.u >= e.v, piece.eye_splits + 1);
     return;
@@ -85,7 +89,7 @@ void Splitter::visit(const Piece& piece) {
   Extent e = measure(piece.rect, true);
   float width = piece.rect.u1 - piece.rect.u0, height = piece.rect.v1 - piece.rect.v0;
   int nu = segments(e.u / step_, width), nv = segments(e.v / step_, height);
-  bool too_small = width < kSmallest || height < kSmallest;
+  bool too_small = width < kSmallest || height < kSmallest || pieces_ > kMostPieces;
   if (nu * nv > settings_.grid_size && !crosses_eye && !too_small) {
     split(piece, nu >= nv, piece.eye_splits);
     return;

@@ -158,6 +158,8 @@ private:
   void polygon(const RequestCall&);
   void points_polygons(const RequestCall&);
   void patch(const RequestCall&);
+  void geometry(const RequestCall&);
+  std::optional<bool> wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
   bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P);
