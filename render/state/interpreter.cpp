@@ -65,6 +65,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     for (RequestId r : {kSphere, kCone, kCylinder, kHyperboloid, kParaboloid, kDisk, kTorus})
       set(r, &I::quadric);
     set(kPolygon, &I::polygon), set(kPointsPolygons, &I::points_polygons), set(kPatch, &I::patch);
+    set(kGeneralPolygon, &I::polygon), set(kPointsGeneralPolygons, &I::points_polygons);
     set(kPatchMesh, &I::patch), set(kGeometry, &I::geometry);
     return h;
   }();

@@ -157,6 +157,8 @@ private:
   void quadric(const RequestCall&);
   void polygon(const RequestCall&);
   void points_polygons(const RequestCall&);
+  std::optional<size_t> check_loops(const RequestCall&, size_t i, std::span<const int> loops);
+  std::optional<size_t> check_vertices(const RequestCall&, size_t i, size_t corners);
   void patch(const RequestCall&);
   void geometry(const RequestCall&);
   std::optional<bool> wraps(const RequestCall&, int i);

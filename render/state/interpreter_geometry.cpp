@@ -3,7 +3,6 @@
 
 #include "render/prims/patch_mesh.h"
 #include "render/prims/patches.h"
-#include "render/prims/polygons.h"
 #include "render/prims/quadrics.h"
 #include "render/prims/teapot.h"
 #include "render/prims/typed_vars.h"
@@ -194,62 +193,6 @@ void Interpreter::geometry(const RequestCall& call) {
   MeshDirection side;
   for (const auto& patch : teapot_patches())
     add_patch_mesh(side, side, patch, vars, state, scene_.primitives);
-}
-
-void Interpreter::polygon(const RequestCall& call) {
-  const Param* p = call.find_param("P");
-  size_t n = p ? p->numbers.size() / 3 : 0;
-  if (!p && (p = call.find_param("Pw"))) n = p->numbers.size() / 4;
-  std::vector<TypedParam> vars = primitive_vars(call, {1, n, n, n});
-  std::vector<Vec3> P;
-  if (!take_positions(call, vars, P)) return;
-  if (n < 3) {
-    error(call, fmt::format("a polygon has at least 3 vertices, found {}", n));
-    return;
-  }
-  std::vector<int> vertices(n);
-  for (size_t i = 0; i < n; ++i)
-    vertices[i] = static_cast<int>(i);
-  add_polygon({vertices, 0, 0}, P, vars, primitive_state(), scene_.primitives);
-}
-
-void Interpreter::points_polygons(const RequestCall& call) {
-  auto counts = call.integers(0), vertices = call.integers(1);
-  size_t corners = 0;
-  for (int n : counts) {
-    if (n < 3) {
-      error_at(call.arguments[0].where, call, fmt::format("a polygon has at least 3 vertices, found {}", n));
-      return;
-    }
-    corners += static_cast<size_t>(n);
-  }
-  if (corners != vertices.size()) {
-    error_at(call.arguments[1].where, call,
-             fmt::format("'nvertices' asks for {} vertex numbers, found {}", corners, vertices.size()));
-    return;
-  }
-  int last = -1;
-  for (int v : vertices) {
-    if (v < 0) {
-      error_at(call.arguments[1].where, call, fmt::format("{} is not a vertex number; these start at 0", v));
-      return;
-    }
-    last = std::max(last, v);
-  }
-  size_t points = static_cast<size_t>(last) + 1;
-  // Files often carry more points than the faces use: P decides, if it has enough.
-  if (const Param* p = call.find_param("P"); p && p->numbers.size() / 3 > points)
-    points = p->numbers.size() / 3;
-  std::vector<TypedParam> vars = primitive_vars(call, {counts.size(), points, points, corners});
-  std::vector<Vec3> P;
-  if (!take_positions(call, vars, P)) return;
-  auto state = primitive_state();
-  size_t first = 0;
-  for (size_t i = 0; i < counts.size(); ++i) {
-    auto n = static_cast<size_t>(counts[i]);
-    add_polygon({vertices.subspan(first, n), i, first}, P, vars, state, scene_.primitives);
-    first += n;
-  }
 }
 
 } // namespace render
