@@ -106,15 +106,21 @@ void Dicer::set_parameters() {
   size_t k = 0;
   const UvRect& whole = primitive_.uv;
   float width = whole.u1 - whole.u0, height = whole.v1 - whole.v0;
-  for (float vl : v_)
-    for (float ul : u_) {
-      float ui = whole.u0 + width * ul, vj = whole.v0 + height * vl;
-      u[k] = ui;
-      v[k] = vj;
-      s[k] = (tc[0] * (1 - ui) + tc[2] * ui) * (1 - vj) + (tc[4] * (1 - ui) + tc[6] * ui) * vj;
-      t[k] = (tc[1] * (1 - ui) + tc[3] * ui) * (1 - vj) + (tc[5] * (1 - ui) + tc[7] * ui) * vj;
+  for (float vj : v_)
+    for (float ui : u_) {
+      u[k] = whole.u0 + width * ui;
+      v[k] = whole.v0 + height * vj;
       ++k;
     }
+  // Pieces of odd shapes bring their parameters along; s and t follow these.
+  for (const PatchVar& var : primitive_.vars)
+    if ((var.name == "u" || var.name == "v") && var.type == slvm::Type::kFloat && !var.elements)
+      interpolate(var, u_, v_, var.name == "u" ? u : v, grid_.pitch());
+  for (k = 0; k < grid_.points(); ++k) {
+    float a = u[k], b = v[k];
+    s[k] = (tc[0] * (1 - a) + tc[2] * a) * (1 - b) + (tc[4] * (1 - a) + tc[6] * a) * b;
+    t[k] = (tc[1] * (1 - a) + tc[3] * a) * (1 - b) + (tc[5] * (1 - a) + tc[7] * a) * b;
+  }
   float du = width * (u_.back() - u_.front()) / static_cast<float>(u_.size() - 1);
   float dv = height * (v_.back() - v_.front()) / static_cast<float>(v_.size() - 1);
   auto set = [&](Global g, std::initializer_list<float> value) {

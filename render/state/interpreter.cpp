@@ -67,6 +67,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kPolygon, &I::polygon), set(kPointsPolygons, &I::points_polygons), set(kPatch, &I::patch);
     set(kGeneralPolygon, &I::polygon), set(kPointsGeneralPolygons, &I::points_polygons);
     set(kPatchMesh, &I::patch), set(kGeometry, &I::geometry);
+    set(kNuPatch, &I::nu_patch), set(kTrimCurve, &I::trim_curve);
     return h;
   }();
   return kHandlers[static_cast<size_t>(id)];

@@ -161,6 +161,8 @@ private:
   std::optional<size_t> check_vertices(const RequestCall&, size_t i, size_t corners);
   void patch(const RequestCall&);
   void geometry(const RequestCall&);
+  void nu_patch(const RequestCall&);
+  void trim_curve(const RequestCall&);
   std::optional<bool> wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
