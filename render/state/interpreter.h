@@ -162,6 +162,8 @@ private:
   void patch(const RequestCall&);
   void geometry(const RequestCall&);
   void nu_patch(const RequestCall&);
+  void curves(const RequestCall&);
+  void points(const RequestCall&);
   void trim_curve(const RequestCall&);
   std::optional<bool> wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.
