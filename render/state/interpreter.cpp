@@ -68,6 +68,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kGeneralPolygon, &I::polygon), set(kPointsGeneralPolygons, &I::points_polygons);
     set(kPatchMesh, &I::patch), set(kGeometry, &I::geometry);
     set(kNuPatch, &I::nu_patch), set(kTrimCurve, &I::trim_curve);
+    set(kSubdivisionMesh, &I::subdivision_mesh);
     set(kCurves, &I::curves), set(kPoints, &I::points);
     return h;
   }();

@@ -12,6 +12,8 @@
 
 namespace render {
 
+struct SubdivisionMesh;
+
 /// Values of each storage class a primitive takes (rib-reference: class sizes).
 struct ClassSizes {
   size_t uniform = 1, varying = 4, vertex = 4, facevarying = 4;
@@ -161,6 +163,8 @@ private:
   std::optional<size_t> check_vertices(const RequestCall&, size_t i, size_t corners);
   void patch(const RequestCall&);
   void geometry(const RequestCall&);
+  void subdivision_mesh(const RequestCall&);
+  bool subdivision_tags(const RequestCall&, size_t points, SubdivisionMesh&);
   void nu_patch(const RequestCall&);
   void curves(const RequestCall&);
   void points(const RequestCall&);
