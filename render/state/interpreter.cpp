@@ -70,6 +70,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kNuPatch, &I::nu_patch), set(kTrimCurve, &I::trim_curve);
     set(kSubdivisionMesh, &I::subdivision_mesh);
     set(kCurves, &I::curves), set(kPoints, &I::points);
+    set(kBlobby, &I::blobby);
     return h;
   }();
   return kHandlers[static_cast<size_t>(id)];

@@ -168,6 +168,7 @@ private:
   void nu_patch(const RequestCall&);
   void curves(const RequestCall&);
   void points(const RequestCall&);
+  void blobby(const RequestCall&);
   void trim_curve(const RequestCall&);
   std::optional<bool> wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.

@@ -1,4 +1,5 @@
-// Curves and Points.
+// What has no surface of its own: Curves, Points, Blobby.
+#include "render/prims/blobby.h"
 #include "render/prims/curves.h"
 #include "render/state/interpreter.h"
 
@@ -56,6 +57,20 @@ void Interpreter::points(const RequestCall& call) {
   if (!take_positions(call, vars, P)) return;
   auto state = primitive_state();
   add_points(P, vars, eye_in_object(options_, *state), state, scene_.primitives);
+}
+
+void Interpreter::blobby(const RequestCall& call) {
+  auto field = BlobbyField::make(call.integer(0), call.integers(1), call.numbers(2));
+  if (!field) {
+    error(call, field.error());
+    return;
+  }
+  if (field->has_planes())
+    warn_once("Blobby plane", call.where, "rib-unsupported",
+              "Blobby: planes that repel (code 1003) have no effect");
+  size_t leaves = field->leaves();
+  std::vector<TypedParam> vars = primitive_vars(call, {1, leaves, leaves, leaves});
+  add_blobby(*field, vars, primitive_state(), scene_.primitives);
 }
 
 } // namespace render

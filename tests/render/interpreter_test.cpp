@@ -103,8 +103,8 @@ TEST(Interpreter, the_first_branch_of_a_condition_is_taken) {
 }
 
 TEST(Interpreter, requests_without_effect_are_named_once) {
-  std::string m = messages_of("WorldBegin\nBlobby 0 [] [] [\"\"]\nBlobby 0 [] [] [\"\"]\nWorldEnd");
-  EXPECT_THAT(m, HasSubstr("test.rib:2:1: warning: Blobby is not supported yet: the blobby is missing"));
+  std::string m = messages_of("WorldBegin\nDeformation \"bend\"\nDeformation \"bend\"\nWorldEnd");
+  EXPECT_THAT(m, HasSubstr("test.rib:2:1: warning: Deformation is not supported yet: nothing is deformed"));
   EXPECT_THAT(m, Not(HasSubstr("test.rib:3:1")));
   EXPECT_THAT(messages_of("Frobnicate 1 Frobnicate 2"), HasSubstr("warning: unknown request Frobnicate"));
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
