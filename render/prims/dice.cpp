@@ -79,12 +79,14 @@ void Dicer::set_geometry() {
          I = triple(grid_, Global::kI);
   const Matrix4& m = state_.object_to_camera;
   const Matrix4& inverse = state_.camera_to_object;
+  float along_u = 1 / (primitive_.uv.u1 - primitive_.uv.u0),
+        along_v = 1 / (primitive_.uv.v1 - primitive_.uv.v0);
   for (size_t k = 0; k < lattice.P.size(); ++k) {
     Vec3 p = transform_point(m, lattice.P[k]);
     P.set(k, p);
     I.set(k, context_.camera->incident(p));
-    dPdu.set(k, transform_vector(m, lattice.dPdu[k]));
-    dPdv.set(k, transform_vector(m, lattice.dPdv[k]));
+    dPdu.set(k, transform_vector(m, lattice.dPdu[k] * along_u));
+    dPdv.set(k, transform_vector(m, lattice.dPdv[k] * along_v));
     // Normals go by the inverse transpose.
     Vec3 n = lattice.N[k];
     Vec3 nc;
@@ -102,16 +104,25 @@ void Dicer::set_parameters() {
   float* t = grid_.varying(Global::kt);
   const auto& tc = attributes_.texture_coordinates;
   size_t k = 0;
+  const UvRect& whole = primitive_.uv;
+  float width = whole.u1 - whole.u0, height = whole.v1 - whole.v0;
   for (float vj : v_)
     for (float ui : u_) {
-      u[k] = ui;
-      v[k] = vj;
-      s[k] = (tc[0] * (1 - ui) + tc[2] * ui) * (1 - vj) + (tc[4] * (1 - ui) + tc[6] * ui) * vj;
-      t[k] = (tc[1] * (1 - ui) + tc[3] * ui) * (1 - vj) + (tc[5] * (1 - ui) + tc[7] * ui) * vj;
+      u[k] = whole.u0 + width * ui;
+      v[k] = whole.v0 + height * vj;
       ++k;
     }
-  float du = (u_.back() - u_.front()) / static_cast<float>(u_.size() - 1);
-  float dv = (v_.back() - v_.front()) / static_cast<float>(v_.size() - 1);
+  // Pieces of odd shapes bring their parameters along; s and t follow these.
+  for (const PatchVar& var : primitive_.vars)
+    if ((var.name == "u" || var.name == "v") && var.type == slvm::Type::kFloat && !var.elements)
+      interpolate(var, u_, v_, var.name == "u" ? u : v, grid_.pitch());
+  for (k = 0; k < grid_.points(); ++k) {
+    float a = u[k], b = v[k];
+    s[k] = (tc[0] * (1 - a) + tc[2] * a) * (1 - b) + (tc[4] * (1 - a) + tc[6] * a) * b;
+    t[k] = (tc[1] * (1 - a) + tc[3] * a) * (1 - b) + (tc[5] * (1 - a) + tc[7] * a) * b;
+  }
+  float du = width * (u_.back() - u_.front()) / static_cast<float>(u_.size() - 1);
+  float dv = height * (v_.back() - v_.front()) / static_cast<float>(v_.size() - 1);
   auto set = [&](Global g, std::initializer_list<float> value) {
     grid_.set_uniform(g, {value.begin(), value.size()});
   };
@@ -162,7 +173,8 @@ bool Dicer::set_predefined(const PatchVar& var) {
     return true;
   }
   constexpr std::pair<std::string_view, Global> kNames[] = {
-      {"Cs", Global::kCs}, {"Os", Global::kOs}, {"s", Global::ks}, {"t", Global::kt}, {"N", Global::kN}};
+      {"Cs", Global::kCs}, {"Os", Global::kOs}, {"s", Global::ks}, {"t", Global::kt},
+      {"N", Global::kN},   {"u", Global::ku},   {"v", Global::kv}};
   for (auto [name, global] : kNames)
     if (var.name == name && var.type == slvm::global_info(global).type && !var.elements) {
       float* planes = grid_.varying(global);

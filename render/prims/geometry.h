@@ -5,6 +5,7 @@
 
 #include "render/state/math.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,8 @@ public:
   virtual void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const = 0;
   /// Whether all lines of constant u or v are straight, so that the four corners tell the size of a part.
   virtual bool ruled() const { return false; }
+  /// Micropolygons the whole of u and of v takes at least, however small it is: powers of two.
+  virtual std::array<int, 2> coarsest() const { return {4, 4}; }
 };
 
 } // namespace render

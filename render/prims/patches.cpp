@@ -10,6 +10,39 @@ namespace {
 /// Below this fraction of the product of the tangents' typical size, a cross product is noise.
 constexpr float kCollapsed = 1e-6f;
 
+/// Bernstein polynomials of degree order - 1 (1 or 3) and their slopes.
+void bezier_weights(size_t order, double t, double (&w)[4], double (&slope)[4]) {
+  double s = 1 - t;
+  if (order == 2) {
+    w[0] = s, w[1] = t;
+    slope[0] = -1, slope[1] = 1;
+    return;
+  }
+  w[0] = s * s * s, w[1] = 3 * s * s * t, w[2] = 3 * s * t * t, w[3] = t * t * t;
+  slope[0] = -3 * s * s, slope[1] = 3 * s * s - 6 * s * t, slope[2] = 6 * s * t - 3 * t * t,
+  slope[3] = 3 * t * t;
+}
+
+/// The unit normal where the tangents are parallel or vanish (collapsed edges and corners): its limit from
+/// inside, by double precision so close to the point that the difference is below that of floats.
+template <class Points> Vec3 limit_normal(const Points& p, size_t order, double u, double v) {
+  using Vec3d = glm::dvec3;
+  constexpr double kInwards = 1e-6;
+  double wu[4], du[4], wv[4], dv[4];
+  bezier_weights(order, u + (0.5 - u) * kInwards, wu, du);
+  bezier_weights(order, v + (0.5 - v) * kInwards, wv, dv);
+  Vec3d along_u(0.0), along_v(0.0);
+  for (size_t j = 0; j < order; ++j)
+    for (size_t i = 0; i < order; ++i) {
+      Vec3d q = Vec3d(p[order * j + i]) - Vec3d(p[0]);
+      along_u += q * (du[i] * wv[j]);
+      along_v += q * (wu[i] * dv[j]);
+    }
+  Vec3d n = glm::cross(along_u, along_v);
+  double length = glm::length(n);
+  return length > 0 ? Vec3(n / length) : Vec3(0.0f);
+}
+
 class BilinearPatch final : public Geometry {
 public:
   explicit BilinearPatch(const std::array<Vec3, 4>& p) : p_(p) {}
@@ -45,10 +78,7 @@ private:
   Vec3 normal(float u, float v) const {
     Vec3 n = glm::cross(du(v), dv(u));
     float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]);
-    // At a collapsed edge: the normal a little inside.
-    if (glm::length(n) < kCollapsed * scale)
-      n = glm::cross(du(v + (0.5f - v) * 0.01f), dv(u + (0.5f - u) * 0.01f));
-    return n;
+    return glm::length(n) < kCollapsed * scale ? limit_normal(p_, 2, u, v) : n;
   }
 
   std::array<Vec3, 4> p_;
@@ -98,10 +128,7 @@ public:
         out.dPdu[k] = t.du;
         out.dPdv[k] = t.dv;
         out.N[k] = glm::cross(t.du, t.dv);
-        if (glm::length(out.N[k]) < kCollapsed * scale()) {
-          t = tangents(ui + (0.5f - ui) * 0.01f, vj + (0.5f - vj) * 0.01f);
-          out.N[k] = glm::cross(t.du, t.dv);
-        }
+        if (glm::length(out.N[k]) < kCollapsed * scale()) out.N[k] = limit_normal(p_, 4, ui, vj);
         ++k;
       }
   }

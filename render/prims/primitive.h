@@ -23,6 +23,8 @@ struct Primitive {
   std::shared_ptr<const PrimitiveState> state;
   std::shared_ptr<const Geometry> geometry;
   std::vector<PatchVar> vars;
+  /// The part of the shaders' u and v that this surface is: patches of a mesh share one square.
+  UvRect uv = {};
 
   const Attributes& attributes() const { return *state->attributes; }
   /// Box of a part in camera space, displacement included.

@@ -21,6 +21,18 @@ void interpolate(const PatchVar& var, std::span<const float> u, std::span<const 
       std::fill_n(out + c * pitch, points, var.values[c]);
     return;
   }
+  if (var.interpolation == Interpolation::kSurface) {
+    std::vector<float> value(width);
+    size_t k = 0;
+    for (float vj : v)
+      for (float ui : u) {
+        var.surface->evaluate(ui, vj, value);
+        for (size_t c = 0; c < width; ++c)
+          out[c * pitch + k] = value[c];
+        ++k;
+      }
+    return;
+  }
   bool cubic = var.interpolation == Interpolation::kBicubic;
   size_t side = cubic ? 4 : 2, k = 0;
   for (float vj : v) {

@@ -1,8 +1,6 @@
 // Bound, cull, split.
 #include "render/prims/split.h"
 
-#include "render/prims/stitch.h"
-
 #include <cmath>
 
 namespace render {
@@ -13,6 +11,11 @@ namespace {
 constexpr int kProbes = 4;
 /// A piece this small in u or v is never split further: its sides would not be distinct floats.
 constexpr float kSmallest = 1e-6f;
+/// Pieces of one primitive that are looked at: beyond, in a scene gone wrong, they are diced as they are.
+constexpr size_t kMostPieces = size_t{1} << 21;
+constexpr size_t kCostOfHuge = 128;
+/// Of a side of a piece; a product of two is still an int.
+constexpr int kMostSegments = 1 << 14;
 
 struct Piece {
   UvRect rect;
@@ -44,7 +47,7 @@ private:
   bool outside_frustum(const Box& box) const;
   void raster_bound(const Box& box, GridTask& task) const;
   Extent measure(const UvRect& rect, bool in_raster) const;
-  int segments(float wanted, float interval) const;
+  int segments(float wanted, float fewest) const;
   void split(const Piece& piece, bool along_u, int eye_splits);
 
   const Primitive& primitive_;
@@ -54,9 +57,11 @@ private:
   std::vector<GridTask>& out_;
   float step_; ///< side of a micropolygon in pixels
   std::vector<Piece> stack_;
+  size_t pieces_ = 0;
 };
 
 void Splitter::visit(const Piece& piece) {
+  ++pieces_;
   Box box = primitive_.camera_bound(piece.rect);
   // A box that is not a number is of no use to anyone; the negated test catches it.
   if (!(box.max.z >= camera_.near_plane()) || !(box.min.z <= camera_.far_plane()) || outside_frustum(box))
@@ -65,7 +70,7 @@ void Splitter::visit(const Piece& piece) {
   // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the
   // picture.
   bool crosses_eye = camera_.perspective() && box.min.z < camera_.near_plane();
-  if (crosses_eye && piece.eye_splits < settings_.eye_splits) {
+  if (crosses_eye && piece.eye_splits < settings_.eye_splits && pieces_ <= kMostPieces) {
     Extent e = measure(piece.rect, false);
     split(piece, e.u >= e.v, piece.eye_splits + 1);
     return;
@@ -84,10 +89,14 @@ void Splitter::visit(const Piece& piece) {
   }
   Extent e = measure(piece.rect, true);
   float width = piece.rect.u1 - piece.rect.u0, height = piece.rect.v1 - piece.rect.v0;
-  int nu = segments(e.u / step_, width), nv = segments(e.v / step_, height);
-  bool too_small = width < kSmallest || height < kSmallest;
+  auto fewest = primitive_.geometry->coarsest();
+  int nu = segments(e.u / step_, width * static_cast<float>(fewest[0])),
+      nv = segments(e.v / step_, height * static_cast<float>(fewest[1]));
+  // Pieces larger than any image come a few at a time, or there is no end to them.
+  if (std::max(nu, nv) == kMostSegments) pieces_ += kCostOfHuge;
+  bool too_small = width < kSmallest || height < kSmallest || pieces_ > kMostPieces;
   if (nu * nv > settings_.grid_size && !crosses_eye && !too_small) {
-    split(piece, nu >= nv, piece.eye_splits);
+    split(piece, nu > nv || (nu == nv && width >= height), piece.eye_splits);
     return;
   }
   // What cannot be split any more is diced as finely as one grid allows.
@@ -101,14 +110,12 @@ void Splitter::visit(const Piece& piece) {
 /// Segments for a side that is `wanted` micropolygons long. Curved surfaces take powers of two, so that
 /// neighbouring grids can agree on their outlines (stitch.h); the side of a micropolygon is then 0.66 to 1.32
 /// of what was asked for.
-int Splitter::segments(float wanted, float interval) const {
-  constexpr int kMost = 1 << 14; // a product of two is still an int
+int Splitter::segments(float wanted, float fewest) const {
   if (primitive_.geometry->ruled())
-    return static_cast<int>(std::clamp(std::ceil(wanted), 1.0f, float{kMost}));
+    return static_cast<int>(std::clamp(std::ceil(wanted), 1.0f, float{kMostSegments}));
   constexpr float kStretch = 1.32f;
   int n = 1;
-  while (n < kMost &&
-         (static_cast<float>(n) * kStretch < wanted || interval > kOutlineInterval * static_cast<float>(n)))
+  while (n < kMostSegments && (static_cast<float>(n) * kStretch < wanted || fewest > static_cast<float>(n)))
     n *= 2;
   return n;
 }

@@ -14,6 +14,8 @@
 
 namespace render {
 
+struct TrimRegion;
+
 /// Which side is the outside: that of the primitive's own definition, the other, or absolutely by handedness
 /// of dPdu x dPdv in camera space.
 enum class Orientation : uint8_t { kOutside, kInside, kLeftHanded, kRightHanded };
@@ -34,6 +36,7 @@ struct Attributes {
   bool smooth_shading = false;
   std::array<float, 8> texture_coordinates{0, 0, 1, 0, 0, 1, 1, 1};
   CubicBasis ubasis = bezier_basis(), vbasis = bezier_basis();
+  std::shared_ptr<const TrimRegion> trim; ///< of NURBS patches; null: they are whole
 
   std::shared_ptr<const ShaderRequest> surface, displacement, atmosphere;
   /// Lights that are on, in order of declaration.

@@ -64,6 +64,12 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     for (RequestId r : {kSphere, kCone, kCylinder, kHyperboloid, kParaboloid, kDisk, kTorus})
       set(r, &I::quadric);
     set(kPolygon, &I::polygon), set(kPointsPolygons, &I::points_polygons), set(kPatch, &I::patch);
+    set(kGeneralPolygon, &I::polygon), set(kPointsGeneralPolygons, &I::points_polygons);
+    set(kPatchMesh, &I::patch), set(kGeometry, &I::geometry);
+    set(kNuPatch, &I::nu_patch), set(kTrimCurve, &I::trim_curve);
+    set(kSubdivisionMesh, &I::subdivision_mesh);
+    set(kCurves, &I::curves), set(kPoints, &I::points);
+    set(kBlobby, &I::blobby);
     return h;
   }();
   return kHandlers[static_cast<size_t>(id)];

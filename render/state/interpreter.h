@@ -14,6 +14,8 @@
 
 namespace render {
 
+struct SubdivisionMesh;
+
 /// Values of each storage class a primitive takes (rib-reference: class sizes).
 struct ClassSizes {
   size_t uniform = 1, varying = 4, vertex = 4, facevarying = 4;
@@ -181,7 +183,18 @@ private:
   void quadric(const RequestCall&);
   void polygon(const RequestCall&);
   void points_polygons(const RequestCall&);
+  std::optional<size_t> check_loops(const RequestCall&, size_t i, std::span<const int> loops);
+  std::optional<size_t> check_vertices(const RequestCall&, size_t i, size_t corners);
   void patch(const RequestCall&);
+  void geometry(const RequestCall&);
+  void subdivision_mesh(const RequestCall&);
+  bool subdivision_tags(const RequestCall&, size_t points, SubdivisionMesh&);
+  void nu_patch(const RequestCall&);
+  void curves(const RequestCall&);
+  void points(const RequestCall&);
+  void blobby(const RequestCall&);
+  void trim_curve(const RequestCall&);
+  std::optional<bool> wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
   bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P);

@@ -27,7 +27,7 @@ void Interpreter::attribute(const RequestCall& call) {
   }
   if (category == "displacementbound")
     displacement_bound(call);
-  else if (category != "user" && category != "identifier")
+  else if (category != "user" && category != "identifier" && category != "trimcurve")
     warn_once("Attribute " + category, call.where, "rib-unsupported",
               fmt::format("Attribute \"{}\" has no effect yet (shaders can read its values)", category));
 }

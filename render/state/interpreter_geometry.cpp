@@ -1,9 +1,11 @@
 // Geometry requests: checks of arguments and variables, then one Primitive for each patch.
 #include "render/state/interpreter.h"
 
+#include "render/prims/patch_mesh.h"
 #include "render/prims/patches.h"
-#include "render/prims/polygons.h"
 #include "render/prims/quadrics.h"
+#include "render/prims/teapot.h"
+#include "render/prims/typed_vars.h"
 
 #include <fmt/format.h>
 
@@ -22,10 +24,6 @@ size_t class_size(const ClassSizes& sizes, StorageClass c) {
   case StorageClass::kFaceVarying: return sizes.facevarying;
   }
   return 1;
-}
-
-bool interpolates(StorageClass c) {
-  return c != StorageClass::kConstant && c != StorageClass::kUniform;
 }
 
 GeometryResult make_quadric(const RequestCall& c) {
@@ -136,103 +134,66 @@ void Interpreter::quadric(const RequestCall& call) {
   add_patch(*geometry, vars);
 }
 
+/// A patch is a mesh of one.
 void Interpreter::patch(const RequestCall& call) {
+  bool mesh = call.id == RequestId::kPatchMesh;
   bool cubic = call.text(0) == "bicubic";
   if (!cubic && call.text(0) != "bilinear") {
     error_at(call.arguments[0].where, call,
              fmt::format("unknown type \"{}\"; expected \"bilinear\" or \"bicubic\"", call.text(0)));
     return;
   }
-  size_t points = cubic ? 16 : 4;
-  std::vector<TypedParam> vars = primitive_vars(call, {1, 4, points, 4});
-  std::vector<Vec3> P;
-  if (!take_positions(call, vars, P)) return;
-  if (!cubic) {
-    add_patch(make_bilinear({P[0], P[1], P[2], P[3]}), vars);
-    return;
-  }
-  const CubicBasis &ubasis = attributes_->ubasis, &vbasis = attributes_->vbasis;
-  std::array<Vec3, 16> control;
-  std::copy_n(P.begin(), 16, control.begin());
-  for (int c = 0; c < 3; ++c)
-    convert_to_bezier(ubasis, vbasis, &control[0][c], 3);
-  std::vector<TypedParam> simple;
-  std::vector<PatchVar> vertex;
-  for (const TypedParam& v : vars) {
-    if (v.declaration.storage != StorageClass::kVertex) {
-      simple.push_back(v);
-      continue;
-    }
-    PatchVar var = constant_var(v, 0);
-    size_t width = var.width();
-    for (size_t i = 1; i < 16; ++i) {
-      PatchVar next = constant_var(v, i);
-      var.values.insert(var.values.end(), next.values.begin(), next.values.end());
-    }
-    for (size_t c = 0; c < width; ++c)
-      convert_to_bezier(ubasis, vbasis, &var.values[c], width);
-    var.interpolation = Interpolation::kBicubic;
-    vertex.push_back(std::move(var));
-  }
-  add_patch(make_bicubic(control), simple);
-  auto& all = scene_.primitives.back().vars;
-  all.insert(all.end(), vertex.begin(), vertex.end());
-}
-
-void Interpreter::polygon(const RequestCall& call) {
-  const Param* p = call.find_param("P");
-  size_t n = p ? p->numbers.size() / 3 : 0;
-  if (!p && (p = call.find_param("Pw"))) n = p->numbers.size() / 4;
-  std::vector<TypedParam> vars = primitive_vars(call, {1, n, n, n});
-  std::vector<Vec3> P;
-  if (!take_positions(call, vars, P)) return;
-  if (n < 3) {
-    error(call, fmt::format("a polygon has at least 3 vertices, found {}", n));
-    return;
-  }
-  std::vector<int> vertices(n);
-  for (size_t i = 0; i < n; ++i)
-    vertices[i] = static_cast<int>(i);
-  add_polygon({vertices, 0, 0}, P, vars, primitive_state(), scene_.primitives);
-}
-
-void Interpreter::points_polygons(const RequestCall& call) {
-  auto counts = call.integers(0), vertices = call.integers(1);
-  size_t corners = 0;
-  for (int n : counts) {
-    if (n < 3) {
-      error_at(call.arguments[0].where, call, fmt::format("a polygon has at least 3 vertices, found {}", n));
+  MeshDirection d[2];
+  for (int side = 0; side < 2; ++side) {
+    d[side].cubic = cubic;
+    d[side].points = d[side].order();
+    d[side].basis = side == 0 ? attributes_->ubasis : attributes_->vbasis;
+    if (!mesh) continue;
+    auto periodic = wraps(call, 2 + 2 * side);
+    if (!periodic) return;
+    d[side].periodic = *periodic;
+    d[side].points = call.integer(1 + 2 * side);
+    std::string_view name = side == 0 ? "nu" : "nv";
+    constexpr int kMostPoints = 1 << 20; // products stay ints
+    if (d[side].points < d[side].order() || d[side].points > kMostPoints) {
+      error_at(call.arguments[static_cast<size_t>(1 + 2 * side)].where, call,
+               fmt::format("{} is {}; a {} mesh has at least {}", name, d[side].points, call.text(0),
+                           d[side].order()));
       return;
     }
-    corners += static_cast<size_t>(n);
+    if (!d[side].even())
+      warn(call, fmt::format("{} is {}, which steps of {} do not divide; the points left over are not used",
+                             name, d[side].points, d[side].step()));
   }
-  if (corners != vertices.size()) {
-    error_at(call.arguments[1].where, call,
-             fmt::format("'nvertices' asks for {} vertex numbers, found {}", corners, vertices.size()));
-    return;
-  }
-  int last = -1;
-  for (int v : vertices) {
-    if (v < 0) {
-      error_at(call.arguments[1].where, call, fmt::format("{} is not a vertex number; these start at 0", v));
-      return;
-    }
-    last = std::max(last, v);
-  }
-  size_t points = static_cast<size_t>(last) + 1;
-  // Files often carry more points than the faces use: P decides, if it has enough.
-  if (const Param* p = call.find_param("P"); p && p->numbers.size() / 3 > points)
-    points = p->numbers.size() / 3;
-  std::vector<TypedParam> vars = primitive_vars(call, {counts.size(), points, points, corners});
+  auto size = [](int n, int m) { return static_cast<size_t>(n) * static_cast<size_t>(m); };
+  size_t corners = size(d[0].corners(), d[1].corners()), points = size(d[0].points, d[1].points);
+  std::vector<TypedParam> vars =
+      primitive_vars(call, {size(d[0].patches(), d[1].patches()), corners, points, corners});
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
+  add_patch_mesh(d[0], d[1], P, vars, primitive_state(), scene_.primitives);
+}
+
+/// Whether argument `i` says "periodic". Nothing, with a message: it says neither that nor "nonperiodic".
+std::optional<bool> Interpreter::wraps(const RequestCall& call, int i) {
+  const std::string& text = call.text(i);
+  if (text == "periodic" || text == "nonperiodic") return text == "periodic";
+  error_at(call.arguments[static_cast<size_t>(i)].where, call,
+           fmt::format("unknown wrap \"{}\"; expected \"periodic\" or \"nonperiodic\"", text));
+  return std::nullopt;
+}
+
+void Interpreter::geometry(const RequestCall& call) {
+  if (call.text(0) != "teapot") {
+    error_at(call.arguments[0].where, call,
+             fmt::format("unknown geometry \"{}\"; known is \"teapot\"", call.text(0)));
+    return;
+  }
+  std::vector<TypedParam> vars = primitive_vars(call, {1, 4, 16, 4});
   auto state = primitive_state();
-  size_t first = 0;
-  for (size_t i = 0; i < counts.size(); ++i) {
-    auto n = static_cast<size_t>(counts[i]);
-    add_polygon({vertices.subspan(first, n), i, first}, P, vars, state, scene_.primitives);
-    first += n;
-  }
+  MeshDirection side;
+  for (const auto& patch : teapot_patches())
+    add_patch_mesh(side, side, patch, vars, state, scene_.primitives);
 }
 
 } // namespace render

@@ -96,8 +96,8 @@ TEST(Interpreter, only_the_first_sample_of_a_motion_block_counts) {
 }
 
 TEST(Interpreter, requests_without_effect_are_named_once) {
-  std::string m = messages_of("WorldBegin\nPoints \"P\" [0 0 0]\nPoints \"P\" [0 0 0]\nWorldEnd");
-  EXPECT_THAT(m, HasSubstr("test.rib:2:1: warning: Points is not supported yet: the points are missing"));
+  std::string m = messages_of("WorldBegin\nDeformation \"bend\"\nDeformation \"bend\"\nWorldEnd");
+  EXPECT_THAT(m, HasSubstr("test.rib:2:1: warning: Deformation is not supported yet: nothing is deformed"));
   EXPECT_THAT(m, Not(HasSubstr("test.rib:3:1")));
   EXPECT_THAT(messages_of("Frobnicate 1 Frobnicate 2"), HasSubstr("warning: unknown request Frobnicate"));
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));

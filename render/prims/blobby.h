@@ -1,0 +1,71 @@
+// Blobby: an implicit surface, the set of points where a field made of leaves and operators has a certain
+// value. Leaves are (1 - r^2)^3 of a distance r below 1; the surface is where the field is that of r = 1/2.
+#pragma once
+
+#include "render/prims/primitive.h"
+#include "render/state/declaration.h"
+#include "slvm/support/result.h"
+
+#include <span>
+#include <string>
+
+namespace render {
+
+class BlobbyField {
+public:
+  static constexpr double kThreshold = 0.421875; ///< (1 - 1/4)^3
+
+  /// From the arguments of the request. The error says what is wrong with the code.
+  static slvm::Result<BlobbyField> make(int leaves, std::span<const int> code, std::span<const float> floats);
+
+  /// The field; `leaf_values` receives those of the leaves unless it is empty.
+  double at(glm::dvec3 p, std::span<double> leaf_values = {}) const;
+  /// Unit vector to where the field falls fastest.
+  glm::dvec3 outwards(glm::dvec3 p, double step) const;
+  size_t leaves() const { return leaf_count_; }
+  /// Around all leaves but constants, which are everywhere.
+  Box bound() const { return bound_; }
+  /// The smallest radius of a leaf.
+  float smallest() const { return smallest_; }
+  bool has_planes() const { return has_planes_; }
+
+private:
+  enum class Kind : uint8_t {
+    kConstant,
+    kEllipsoid,
+    kSegment,
+    kPlane,
+    kAdd,
+    kMultiply,
+    kMax,
+    kMin,
+    kDivide,
+    kSubtract,
+    kNegate,
+    kIdentity
+  };
+  struct Node {
+    Kind kind = Kind::kConstant;
+    float constant = 0;
+    Matrix4 to_leaf; ///< into the space where an ellipsoid is the unit sphere
+    Vec3 a{0.0f}, b{0.0f};
+    float radius = 1;
+    Box box;
+    std::vector<int> operands;
+  };
+  std::string add_leaf(int code, std::span<const float> floats, Node& node);
+  static double leaf(const Node& node, glm::dvec3 p);
+
+  std::vector<Node> nodes_;
+  size_t leaf_count_ = 0;
+  Box bound_;
+  float smallest_ = kInfinity;
+  bool has_planes_ = false;
+};
+
+/// Appends the surface as smooth quadrilaterals, about 24 across the smallest leaf where that is not too
+/// many. Varying and vertex variables have a value for each leaf and are mixed by the leaves' fields.
+void add_blobby(const BlobbyField& field, std::span<const TypedParam> vars,
+                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+
+} // namespace render

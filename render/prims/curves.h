@@ -1,0 +1,41 @@
+// Curves as ribbons: flat strips that turn towards the eye, or to the normals they are given. u runs across,
+// v along the whole curve. Points as discs that face the eye.
+#pragma once
+
+#include "render/prims/primitive.h"
+#include "render/state/declaration.h"
+
+#include <span>
+
+namespace render {
+
+/// Where the eye is, in object space: a point, or (orthographic) a direction towards it.
+struct EyeInObject {
+  Vec3 where;
+  bool point = true;
+  Vec3 from(Vec3 p) const { return point ? where - p : where; }
+};
+
+struct CurveLayout {
+  bool cubic = true;
+  bool periodic = false;
+  CubicBasis basis = bezier_basis();
+
+  int step() const { return cubic ? std::max(basis.step, 1) : 1; }
+  int fewest() const { return cubic ? 4 : 2; }
+  /// Of a curve with `points` points.
+  int segments(int points) const { return periodic ? points / step() : (points - fewest()) / step() + 1; }
+  int varying(int points) const { return segments(points) + (periodic ? 0 : 1); }
+};
+
+/// Appends a primitive for each segment of each curve. Widths come from "width" or "constantwidth", else they
+/// are 1; with "N" the ribbons face it. Sizes of the variables: RISpec 3.2, section 5.6.
+void add_curves(const CurveLayout& layout, std::span<const int> points_of_curve, std::span<const Vec3> P,
+                std::span<const TypedParam> vars, const EyeInObject& eye,
+                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+
+/// Appends a disc for each point; widths as above.
+void add_points(std::span<const Vec3> P, std::span<const TypedParam> vars, const EyeInObject& eye,
+                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+
+} // namespace render

@@ -1,0 +1,421 @@
+// Subdivision meshes.
+#include "render/prims/subdivision.h"
+
+#include "render/prims/patches.h"
+#include "render/prims/typed_vars.h"
+
+#include <opensubdiv/bfr/refinerSurfaceFactory.h>
+#include <opensubdiv/bfr/surface.h>
+#include <opensubdiv/far/error.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+
+#include <map>
+
+namespace render {
+
+namespace {
+
+namespace Bfr = OpenSubdiv::Bfr;
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+using Vec3d = glm::dvec3;
+using Refiner = std::unique_ptr<Far::TopologyRefiner>;
+
+/// The part of a face that is a primitive: a quarter of the face from a corner to the centre, or all of it.
+struct FacePart {
+  Bfr::Parameterization parameters;
+  int quarter = -1;
+
+  /// OpenSubdiv's coordinates of (u,v) in the part.
+  void locate(double u, double v, double (&out)[2]) const {
+    out[0] = u;
+    out[1] = v;
+    if (quarter < 0) return;
+    if (parameters.HasSubFaces()) {
+      double in[2] = {u, v};
+      parameters.ConvertNormalizedSubFaceToCoord(quarter, in, out);
+      return;
+    }
+    // Corner `quarter` of the unit square, turned so that u runs along the face's own edge.
+    constexpr double kCorner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                     kAlong[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    for (int c = 0; c < 2; ++c)
+      out[c] = kCorner[quarter][c] + 0.5 * (u * kAlong[quarter][c] + v * kAlong[(quarter + 1) % 4][c]);
+  }
+};
+
+/// One variable (or P) over a face.
+class FaceSurface {
+public:
+  FaceSurface(std::span<const double> mesh_values, int width) : values_(mesh_values), width_(width) {}
+
+  Bfr::Surface<double>& surface() { return surface_; }
+  /// After the surface was found: fetches its points.
+  void prepare() {
+    Bfr::Surface<double>::PointDescriptor layout(width_);
+    points_.resize(static_cast<size_t>(surface_.GetNumPatchPoints() * width_));
+    surface_.PreparePatchPoints(values_.data(), layout, points_.data(), layout);
+  }
+  void at(const double (&uv)[2], double* value) const {
+    surface_.Evaluate(uv, points_.data(), Bfr::Surface<double>::PointDescriptor(width_), value);
+  }
+  void at(const double (&uv)[2], double* value, double* du, double* dv) const {
+    surface_.Evaluate(uv, points_.data(), Bfr::Surface<double>::PointDescriptor(width_), value, du, dv);
+  }
+  void at(const double (&uv)[2], double* value, double* du, double* dv, double* duv) const {
+    std::vector<double> duu(static_cast<size_t>(width_)), dvv(static_cast<size_t>(width_));
+    surface_.Evaluate(uv, points_.data(), Bfr::Surface<double>::PointDescriptor(width_), value, du, dv,
+                      duu.data(), duv, dvv.data());
+  }
+  bool polynomial() const { return surface_.IsRegular() && !surface_.IsLinear(); }
+  bool linear() const { return surface_.IsLinear(); }
+  int width() const { return width_; }
+  /// A box of all control points, which holds the limit surface.
+  Box hull() const {
+    Box box;
+    for (size_t i = 0; i < points_.size(); i += 3)
+      box.add(Vec3(Vec3d(points_[i], points_[i + 1], points_[i + 2])));
+    return box;
+  }
+
+private:
+  std::span<const double> values_;
+  int width_;
+  Bfr::Surface<double> surface_;
+  std::vector<double> points_;
+};
+
+/// Tangents of a part from those of its face.
+struct Chain {
+  double uu, uv, vu, vv; ///< d(face u, face v)/d(part u), the same for part v
+
+  explicit Chain(const FacePart& part) {
+    double o[2], x[2], y[2];
+    part.locate(0.25, 0.25, o);
+    part.locate(0.75, 0.25, x);
+    part.locate(0.25, 0.75, y);
+    uu = 2 * (x[0] - o[0]), uv = 2 * (x[1] - o[1]);
+    vu = 2 * (y[0] - o[0]), vv = 2 * (y[1] - o[1]);
+  }
+};
+
+/// The sixteen Bezier values of a part of a regular face, u fastest, from value, slopes and twist at its
+/// corners.
+std::vector<float> bezier_values(const FaceSurface& face, const FacePart& part) {
+  auto width = static_cast<size_t>(face.width());
+  std::vector<float> out(16 * width);
+  std::vector<double> p(width), fu(width), fv(width), fuv(width);
+  Chain chain(part);
+  for (size_t j = 0; j < 2; ++j)
+    for (size_t i = 0; i < 2; ++i) {
+      double uv[2];
+      part.locate(static_cast<double>(i), static_cast<double>(j), uv);
+      face.at(uv, p.data(), fu.data(), fv.data(), fuv.data());
+      double su = i == 0 ? 1 / 3.0 : -1 / 3.0, sv = j == 0 ? 1 / 3.0 : -1 / 3.0;
+      for (size_t c = 0; c < width; ++c) {
+        double du = fu[c] * chain.uu + fv[c] * chain.uv, dv = fu[c] * chain.vu + fv[c] * chain.vv;
+        // Parts are scaled and turned by right angles: one of the two products of the chain is zero.
+        double duv = fuv[c] * (chain.uu * chain.vv + chain.uv * chain.vu);
+        auto set = [&](size_t k, size_t l, double value) {
+          out[(4 * (j == 0 ? l : 3 - l) + (i == 0 ? k : 3 - k)) * width + c] = static_cast<float>(value);
+        };
+        set(0, 0, p[c]);
+        set(1, 0, p[c] + su * du);
+        set(0, 1, p[c] + sv * dv);
+        set(1, 1, p[c] + su * du + sv * dv + su * sv * duv);
+      }
+    }
+  return out;
+}
+
+/// A face near an extraordinary vertex, a sharp edge or the like.
+class IrregularFace final : public Geometry {
+public:
+  IrregularFace(std::shared_ptr<const FaceSurface> face, const FacePart& part)
+      : face_(std::move(face)), part_(part), chain_(part), hull_(face_->hull()) {}
+
+  /// A lattice of points and room for what bulges between them, at most the hull of the control points.
+  Box bound(const UvRect& r) const override {
+    constexpr int kSteps = 4;
+    Box box;
+    for (int j = 0; j <= kSteps; ++j)
+      for (int i = 0; i <= kSteps; ++i) {
+        float u = r.u0 + (r.u1 - r.u0) * static_cast<float>(i) / kSteps,
+              v = r.v0 + (r.v1 - r.v0) * static_cast<float>(j) / kSteps;
+        double uv[2], p[3];
+        part_.locate(u, v, uv);
+        face_->at(uv, p);
+        box.add(Vec3(Vec3d(p[0], p[1], p[2])));
+      }
+    box.grow(0.2f * glm::length(box.max - box.min));
+    box.min = glm::max(box.min, hull_.min);
+    box.max = glm::min(box.max, hull_.max);
+    return box;
+  }
+
+  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+    out.resize(u.size() * v.size());
+    size_t k = 0;
+    for (float vj : v)
+      for (float ui : u) {
+        Vec3d p, du, dv;
+        at(ui, vj, p, du, dv);
+        out.P[k] = Vec3(p);
+        out.dPdu[k] = Vec3(du);
+        out.dPdv[k] = Vec3(dv);
+        Vec3d n = glm::cross(du, dv);
+        if (glm::length(n) <= 1e-9 * (glm::dot(du, du) + glm::dot(dv, dv))) {
+          // Tangents that vanish or fall together: the limit from inside.
+          at(ui + (0.5 - ui) * 1e-4, vj + (0.5 - vj) * 1e-4, p, du, dv);
+          n = glm::cross(du, dv);
+        }
+        double length = glm::length(n);
+        out.N[k] = length > 0 ? Vec3(n / length) : Vec3(0.0f);
+        ++k;
+      }
+  }
+
+private:
+  void at(double u, double v, Vec3d& p, Vec3d& du, Vec3d& dv) const {
+    double uv[2];
+    Vec3d fu, fv;
+    part_.locate(u, v, uv);
+    face_->at(uv, &p.x, &fu.x, &fv.x);
+    du = fu * chain_.uu + fv * chain_.uv;
+    dv = fu * chain_.vu + fv * chain_.vv;
+  }
+
+  std::shared_ptr<const FaceSurface> face_;
+  FacePart part_;
+  Chain chain_;
+  Box hull_;
+};
+
+class FaceVar final : public VarSurface {
+public:
+  FaceVar(std::shared_ptr<const FaceSurface> face, const FacePart& part)
+      : face_(std::move(face)), part_(part) {}
+  void evaluate(float u, float v, std::span<float> out) const override {
+    double uv[2];
+    std::vector<double> value(out.size());
+    part_.locate(u, v, uv);
+    face_->at(uv, value.data());
+    for (size_t c = 0; c < out.size(); ++c)
+      out[c] = static_cast<float>(value[c]);
+  }
+
+private:
+  std::shared_ptr<const FaceSurface> face_;
+  FacePart part_;
+};
+
+/// A variable's values in the mesh, as OpenSubdiv takes them.
+struct MeshVar {
+  const TypedParam* source = nullptr;
+  PatchVar head;
+  std::vector<double> values;
+  std::vector<int> indices; ///< facevarying: the value of each corner
+  int channel = -1;
+};
+
+/// Facevarying values come corner by corner. Where those at one vertex are equal, the faces join.
+void join_corners(std::span<const int> vertices, MeshVar& var) {
+  size_t width = var.head.width();
+  std::map<std::pair<int, std::vector<double>>, int> known;
+  std::vector<double> values;
+  for (size_t c = 0; c < vertices.size(); ++c) {
+    std::vector<double> value(var.values.begin() + static_cast<std::ptrdiff_t>(c * width),
+                              var.values.begin() + static_cast<std::ptrdiff_t>((c + 1) * width));
+    auto [it, fresh] = known.try_emplace({vertices[c], value}, static_cast<int>(known.size()));
+    if (fresh) values.insert(values.end(), value.begin(), value.end());
+    var.indices.push_back(it->second);
+  }
+  var.values = std::move(values);
+}
+
+class MeshBuilder {
+public:
+  MeshBuilder(const SubdivisionMesh& mesh, std::span<const Vec3> P, std::span<const TypedParam> vars)
+      : mesh_(mesh), point_count_(P.size()) {
+    for (Vec3 p : P)
+      positions_.insert(positions_.end(), {p.x, p.y, p.z});
+    for (const TypedParam& v : vars)
+      add_var(v);
+  }
+
+  slvm::Result<size_t> run(const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
+    Refiner refiner = make_refiner();
+    if (!refiner)
+      return slvm::Error{
+          "the faces do not make a mesh: one has too many corners, or a vertex too many edges"};
+    Bfr::RefinerSurfaceFactory<> factory(*refiner);
+    bool all_quads =
+        std::all_of(mesh_.nvertices.begin(), mesh_.nvertices.end(), [](int n) { return n == 4; });
+    size_t made = 0;
+    for (size_t face = 0; face < mesh_.nvertices.size(); ++face) {
+      auto surface = std::make_shared<FaceSurface>(positions_, 3);
+      auto n = static_cast<size_t>(mesh_.nvertices[face]);
+      if (factory.InitVertexSurface(static_cast<int>(face), &surface->surface())) {
+        surface->prepare();
+        FacePart part{surface->surface().GetParameterization()};
+        std::vector<std::shared_ptr<FaceSurface>> surfaces = var_surfaces(factory, static_cast<int>(face));
+        // Neighbours must halve their common side alike: one face in quarters, all in quarters.
+        for (size_t q = 0; q < (all_quads ? 1 : n); ++q) {
+          if (!all_quads) part.quarter = static_cast<int>(q);
+          add(surface, part, surfaces, face, state, out);
+          ++made;
+        }
+      }
+    }
+    return made;
+  }
+
+private:
+  void add_var(const TypedParam& source) {
+    MeshVar& var = vars_.emplace_back();
+    var.source = &source;
+    var.head = var_head(source);
+    StorageClass storage = source.declaration.storage;
+    if (!interpolates(storage)) return;
+    std::vector<float> values;
+    for (size_t i = 0, n = source.numbers.size() / static_cast<size_t>(source.declaration.width()); i < n;
+         ++i)
+      append_value(source, i, values);
+    var.values.assign(values.begin(), values.end());
+    if (storage != StorageClass::kFaceVarying) return;
+    join_corners(mesh_.vertices, var);
+    var.channel = channels_++;
+  }
+
+  Refiner make_refiner() const {
+    using Topology = Far::TopologyDescriptor;
+    Topology t;
+    t.numVertices = static_cast<int>(point_count_);
+    t.numFaces = static_cast<int>(mesh_.nvertices.size());
+    t.numVertsPerFace = mesh_.nvertices.data();
+    t.vertIndicesPerFace = mesh_.vertices.data();
+    t.numCreases = static_cast<int>(mesh_.crease_sharpness.size());
+    t.creaseVertexIndexPairs = mesh_.crease_pairs.data();
+    t.creaseWeights = mesh_.crease_sharpness.data();
+    t.numCorners = static_cast<int>(mesh_.corners.size());
+    t.cornerVertexIndices = mesh_.corners.data();
+    t.cornerWeights = mesh_.corner_sharpness.data();
+    t.numHoles = static_cast<int>(mesh_.holes.size());
+    t.holeIndices = mesh_.holes.data();
+    std::vector<Topology::FVarChannel> channels;
+    for (const MeshVar& v : vars_)
+      if (v.channel >= 0) {
+        Topology::FVarChannel& c = channels.emplace_back();
+        c.numValues = static_cast<int>(v.values.size() / v.head.width());
+        c.valueIndices = v.indices.data();
+      }
+    t.numFVarChannels = static_cast<int>(channels.size());
+    t.fvarChannels = channels.data();
+
+    Sdc::Options options;
+    constexpr Sdc::Options::VtxBoundaryInterpolation kBoundary[] = {
+        Sdc::Options::VTX_BOUNDARY_NONE, Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER,
+        Sdc::Options::VTX_BOUNDARY_EDGE_ONLY};
+    options.SetVtxBoundaryInterpolation(kBoundary[mesh_.boundary]);
+    const Sdc::Options::FVarLinearInterpolation kFaceVarying[] = {
+        Sdc::Options::FVAR_LINEAR_ALL,
+        mesh_.propagate_corners ? Sdc::Options::FVAR_LINEAR_CORNERS_PLUS2
+                                : Sdc::Options::FVAR_LINEAR_CORNERS_PLUS1,
+        Sdc::Options::FVAR_LINEAR_NONE, Sdc::Options::FVAR_LINEAR_BOUNDARIES};
+    options.SetFVarLinearInterpolation(kFaceVarying[mesh_.facevarying_boundary]);
+    if (mesh_.chaikin) options.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
+    using Factory = Far::TopologyRefinerFactory<Topology>;
+    Factory::Options create(mesh_.bilinear ? Sdc::SCHEME_BILINEAR : Sdc::SCHEME_CATMARK, options);
+    create.validateFullTopology = true;
+    // What is wrong is said by the caller, not printed by the library.
+    Far::SetErrorCallback([](Far::ErrorType, const char*) {});
+    Far::SetWarningCallback([](const char*) {});
+    return Refiner(Factory::Create(t, create));
+  }
+
+  /// In the order of the variables; null for constant and uniform ones.
+  std::vector<std::shared_ptr<FaceSurface>> var_surfaces(const Bfr::RefinerSurfaceFactory<>& factory,
+                                                         int face) {
+    std::vector<std::shared_ptr<FaceSurface>> out;
+    for (const MeshVar& v : vars_) {
+      auto& s = out.emplace_back();
+      StorageClass storage = v.source->declaration.storage;
+      if (!interpolates(storage)) continue;
+      s = std::make_shared<FaceSurface>(v.values, static_cast<int>(v.head.width()));
+      bool found = storage == StorageClass::kVertex ? factory.InitVertexSurface(face, &s->surface())
+                   : storage == StorageClass::kVarying
+                       ? factory.InitVaryingSurface(face, &s->surface())
+                       : factory.InitFaceVaryingSurface(face, &s->surface(), v.channel);
+      if (found)
+        s->prepare();
+      else
+        s = nullptr;
+    }
+    return out;
+  }
+
+  void add(const std::shared_ptr<const FaceSurface>& surface, const FacePart& part,
+           const std::vector<std::shared_ptr<FaceSurface>>& surfaces, size_t face,
+           const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) const {
+    Primitive& primitive = out.emplace_back();
+    primitive.state = state;
+    if (surface->polynomial()) {
+      std::vector<float> b = bezier_values(*surface, part);
+      std::array<Vec3, 16> points;
+      for (size_t k = 0; k < 16; ++k)
+        points[k] = {b[3 * k], b[3 * k + 1], b[3 * k + 2]};
+      primitive.geometry = make_bicubic(points);
+    } else {
+      primitive.geometry = std::make_shared<IrregularFace>(surface, part);
+    }
+    for (size_t i = 0; i < vars_.size(); ++i) {
+      const MeshVar& v = vars_[i];
+      if (!interpolates(v.source->declaration.storage))
+        primitive.vars.push_back(
+            constant_var(*v.source, v.source->declaration.storage == StorageClass::kConstant ? 0 : face));
+      else if (surfaces[i])
+        primitive.vars.push_back(part_var(v.head, surfaces[i], part));
+    }
+  }
+
+  static PatchVar part_var(PatchVar var, const std::shared_ptr<const FaceSurface>& surface,
+                           const FacePart& part) {
+    if (surface->polynomial()) {
+      var.interpolation = Interpolation::kBicubic;
+      var.values = bezier_values(*surface, part);
+      return var;
+    }
+    FaceVar values(surface, part);
+    if (surface->linear()) {
+      var.interpolation = Interpolation::kBilinear;
+      std::vector<float> value(var.width());
+      for (float v : {0.0f, 1.0f})
+        for (float u : {0.0f, 1.0f}) {
+          values.evaluate(u, v, value);
+          var.values.insert(var.values.end(), value.begin(), value.end());
+        }
+      return var;
+    }
+    var.interpolation = Interpolation::kSurface;
+    var.surface = std::make_shared<FaceVar>(values);
+    return var;
+  }
+
+  const SubdivisionMesh& mesh_;
+  size_t point_count_;
+  std::vector<double> positions_;
+  std::vector<MeshVar> vars_;
+  int channels_ = 0;
+};
+
+} // namespace
+
+slvm::Result<size_t> add_subdivision(const SubdivisionMesh& mesh, std::span<const Vec3> P,
+                                     std::span<const TypedParam> vars,
+                                     const std::shared_ptr<const PrimitiveState>& state,
+                                     std::vector<Primitive>& out) {
+  return MeshBuilder(mesh, P, vars).run(state, out);
+}
+
+} // namespace render
