@@ -46,12 +46,12 @@ slvm::Result<AovChannel> parse_aov(const std::string& mode) {
     if (declared->type == slvm::Type::kString || declared->type == slvm::Type::kMatrix ||
         declared->elements > 0)
       return slvm::Error{fmt::format("\"{}\" cannot be shown as an image", mode)};
-    return AovChannel{declared->name, slvm::components(declared->type), 0};
+    return AovChannel{declared->name, slvm::components(declared->type), 0, {}, {}};
   }
   if (mode.find_first_of(" \t[,") != std::string::npos) return slvm::Error{declared.error()};
   slvm::Global g = slvm::find_global(mode);
-  if (g == slvm::Global::kCount) return AovChannel{mode, 3, 0};
-  return AovChannel{mode, slvm::components(slvm::global_info(g).type), 0};
+  if (g == slvm::Global::kCount) return AovChannel{mode, 3, 0, {}, {}};
+  return AovChannel{mode, slvm::components(slvm::global_info(g).type), 0, {}, {}};
 }
 
 std::vector<OutputChannel> output_channels(const std::string& mode, const std::vector<AovChannel>& aovs) {

@@ -10,6 +10,7 @@
 #include "render/hider/random.h"
 #include "render/hider/sample_buffer.h"
 #include "render/prims/dice.h"
+#include "render/prims/motion.h"
 #include "render/prims/split.h"
 
 #include <tbb/global_control.h>
@@ -44,11 +45,15 @@ public:
   FrameRenderer(const Scene& scene, Shading& shading, const FrameSettings& settings)
       : scene_(scene), options_(scene.options), shading_(shading), settings_(settings),
         camera_(scene.options) {
-    for (const AovChannel& c : settings.aovs)
-      aov_floats_ += c.components;
-    sampling_ = SamplingSettings::from(options_, aov_floats_);
+    sampling_ = SamplingSettings::from(options_, settings.aovs);
+    sampling_.moving = std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) {
+      return !p.state->motion.empty() || !p.deformation.empty();
+    });
+    if (camera_.has_lens()) sampling_.lens = &camera_;
+    sampling_.mask = settings.mask;
+    sampling_.mask_scale = {1 / static_cast<float>(options_.xres), 1 / static_cast<float>(options_.yres)};
     threads_ = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
-    image_ = Image(camera_.crop(), aov_floats_);
+    image_ = Image(image_rect(camera_.crop()), static_cast<int>(sampling_.aov_floats()));
   }
 
   Image run(FrameReport& report);
@@ -65,6 +70,11 @@ private:
   void render_bucket(Bucket& bucket, Worker& worker);
   const ShadedGrid* shaded(uint32_t task, Worker& worker);
   std::unique_ptr<const ShadedGrid> shade(uint32_t task, Worker& worker);
+  /// Pixels of the frame to pixels of the image, which are samples when "subpixel" is asked for.
+  PixelRect image_rect(const PixelRect& r) const {
+    int x = options_.subpixel ? options_.xsamples : 1, y = options_.subpixel ? options_.ysamples : 1;
+    return {r.x0 * x, r.y0 * y, r.x1 * x, r.y1 * y};
+  }
   void expose(const PixelRect& rect);
   void run_imager(const PixelRect& rect, Worker& worker);
   void report_progress();
@@ -75,7 +85,6 @@ private:
   const FrameSettings& settings_;
   Camera camera_;
   SamplingSettings sampling_;
-  int aov_floats_ = 0;
   int threads_;
   Image image_;
   std::vector<GridTask> tasks_;
@@ -118,7 +127,8 @@ void FrameRenderer::split_all() {
   SplitSettings s;
   s.camera = &camera_;
   PixelRect crop = camera_.crop();
-  auto mx = static_cast<float>(sampling_.xmargin()), my = static_cast<float>(sampling_.ymargin());
+  auto mx = static_cast<float>(sampling_.reconstruction.xmargin()),
+       my = static_cast<float>(sampling_.reconstruction.ymargin());
   s.raster_min = {static_cast<float>(crop.x0) - mx, static_cast<float>(crop.y0) - my};
   s.raster_max = {static_cast<float>(crop.x1) + mx, static_cast<float>(crop.y1) + my};
   s.grid_size = options_.grid_size;
@@ -151,7 +161,7 @@ void FrameRenderer::make_buckets() {
     float cell = std::floor((x + static_cast<float>(side * margin - origin)) / static_cast<float>(size));
     return static_cast<int>(std::clamp(cell, 0.0f, static_cast<float>(count - 1)));
   };
-  int mx = sampling_.xmargin(), my = sampling_.ymargin();
+  int mx = sampling_.reconstruction.xmargin(), my = sampling_.reconstruction.ymargin();
   for (uint32_t t = 0; t < tasks_.size(); ++t) {
     const GridTask& task = tasks_[t];
     int i0 = index(task.raster_min.x, mx, crop.x0, bw, columns, -1);
@@ -179,8 +189,9 @@ void FrameRenderer::render_bucket(Bucket& bucket, Worker& worker) {
   }
   bucket.tasks = {};
   samples.finish(image_);
-  expose(bucket.rect);
-  if (options_.imager) run_imager(bucket.rect, worker);
+  PixelRect rect = image_rect(bucket.rect);
+  expose(rect);
+  if (options_.imager) run_imager(rect, worker);
 }
 
 /// The task's grid, shaded now if no other bucket has done it. Another thread at it is waited for: it needs
@@ -213,12 +224,23 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
   if (!primitive.geometry->ruled())
     outline = find_outline(grid, task.rect, camera_, std::sqrt(primitive.attributes().shading_rate));
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
-  if (primitive.attributes().sides == 1 && faces_away(grid, camera_)) return nullptr;
+  std::vector<float> times = motion_times(primitive);
+  if (times.empty() && primitive.attributes().sides == 1 && faces_away(grid, camera_)) return nullptr;
+  std::vector<slvm::Grid> moved;
+  for (size_t i = 1; i < times.size(); ++i) {
+    Primitive there = primitive_at(primitive, times[i]);
+    slvm::Grid& later = moved.emplace_back(2, 2);
+    dice(there, task, index, context, later);
+    worker.shader->displace(there, later);
+  }
+  if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);
   worker.shader->shade(primitive, grid);
   ++worker.shaded_grids;
   worker.shaded_points += grid.points();
   auto out = std::make_unique<ShadedGrid>(make_shaded_grid(
       primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
+  for (size_t i = 0; i < moved.size(); ++i)
+    add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
   worker.bad_colours += out->bad_colours;
   return out;
 }

@@ -2,6 +2,7 @@
 // returns the finished pixels. Read after prims/split.h, prims/dice.h, hider/sample_buffer.h.
 #pragma once
 
+#include "render/hider/depth_mask.h"
 #include "render/hider/image.h"
 #include "render/shading/grid_shader.h"
 #include "render/state/scene.h"
@@ -15,6 +16,7 @@ namespace render {
 struct FrameSettings {
   int threads = 0; ///< 0: all processors
   std::vector<AovChannel> aovs;
+  const DepthMask* mask = nullptr; ///< of Hider "depthmask"
   /// Called with the finished fraction, from any thread but never from two at once.
   std::function<void(double)> progress;
 };

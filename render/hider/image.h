@@ -2,18 +2,25 @@
 #pragma once
 
 #include "render/state/camera.h"
+#include "render/state/options.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace render {
 
-/// A shader variable that a Display asks for.
+/// What a Display asks for besides the standard channels: a shader variable, seen on the nearest surface, or
+/// the composited picture once more, with a filter of its own.
 struct AovChannel {
+  enum class Source : uint8_t { kVariable, kColor, kOpacity, kAlpha, kDepth };
+
   std::string name;
   int components = 3;
   int first = 0; ///< its first float among the AOV floats of a pixel
+  Source source = Source::kVariable;
+  std::optional<PixelFilter> filter; ///< none: the frame's
 };
 
 /// Channels of a pixel in order: Ci (3), Oi (3), alpha, z, then the AOVs.

@@ -115,7 +115,9 @@ private:
   void imager(const RequestCall&);
   void quantize(const RequestCall&);
   void display(const RequestCall&);
+  void depth_of_field(const RequestCall&);
   void hider(const RequestCall&);
+  bool hider_parameter(const RequestCall&, const std::string& name, const slvm::Value& value);
   void option(const RequestCall&);
   void search_path(const RequestCall&);
   void limits(const RequestCall&);

@@ -136,6 +136,48 @@ TEST(Frame, a_crop_window_is_a_piece_of_the_whole) {
         ASSERT_EQ(part.image.pixel(x, y)[c], whole.image.pixel(x, y)[c]) << x << " " << y << " " << c;
 }
 
+constexpr const char* kEveryFilter[] = {"\"box\" 1 1",
+                                        "\"triangle\" 2 2",
+                                        "\"gaussian\" 2 2",
+                                        "\"catmull-rom\" 4 4",
+                                        "\"b-spline\" 4 4",
+                                        "\"sinc\" 6 6",
+                                        "\"mitchell\" 4 4",
+                                        "\"disk\" 2 2",
+                                        "\"lanczos\" 4 4",
+                                        "\"bessel\" 6.5 6.5",
+                                        "\"blackman-harris\" 4 4",
+                                        "\"box\" 3 2",
+                                        "\"separable-catmull-rom\" 4 4"};
+
+TEST(Frame, filters_keep_a_constant_field_and_the_light_of_a_spot) {
+  for (const char* filter : kEveryFilter) {
+    SCOPED_TRACE(filter);
+    std::string head =
+        "Format 40 40 1 PixelSamples 8 8 Option \"limits\" \"bucketsize\" [10 10] PixelFilter " +
+        std::string(filter) + " WorldBegin Translate 0 0 5 ";
+    Rendered field = render_text(head + "Color .25 .5 1 Disk 0 9 360 WorldEnd");
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x)
+        ASSERT_NEAR(field.Ci(x, y).y, 0.5f, 1e-5f) << x << " " << y;
+    // Two pixels wide, its corner on that of four buckets.
+    Rendered spot = render_text(head + "Polygon \"P\" [0 0 0 .1 0 0 .1 .1 0 0 .1 0] WorldEnd");
+    EXPECT_NEAR(spot.covered(), 4, 0.12);
+  }
+}
+
+TEST(Frame, filters_reach_across_bucket_borders) {
+  for (const char* filter : kEveryFilter) {
+    SCOPED_TRACE(filter);
+    auto rendered = [&](const char* buckets) {
+      return render_text("Format 24 24 1 Option \"limits\" \"bucketsize\" " + std::string(buckets) +
+                         " PixelFilter " + filter +
+                         " WorldBegin Translate 0 0 5 Rotate 20 0 0 1 Scale .3 .5 1 Disk 0 1 360 WorldEnd");
+    };
+    EXPECT_EQ(rendered("[5 7]").image.data, rendered("[64 64]").image.data);
+  }
+}
+
 TEST(Frame, exposure_and_imager) {
   std::string frame = "Format 4 4 1 PixelFilter \"box\" 1 1 Exposure 2 2 ";
   std::string world = "WorldBegin Color .5 .125 .02 Translate 0 0 5 Disk 0 9 360 WorldEnd";
@@ -150,7 +192,8 @@ TEST(Frame, exposure_and_imager) {
 
 TEST(Frame, shader_variables_as_channels) {
   FrameSettings s;
-  s.aovs = {{"N", 3, 0}, {"heat", 1, 3}};
+  s.aovs = {{"N", 3, 0, AovChannel::Source::kVariable, {}},
+            {"heat", 1, 3, AovChannel::Source::kVariable, {}}};
   Rendered r = render_text("Format 8 8 1 PixelFilter \"box\" 1 1 WorldBegin Translate 0 0 5 Disk 0 9 360 "
                            "\"constant float heat\" [42] WorldEnd",
                            s);
