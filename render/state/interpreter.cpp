@@ -1,6 +1,6 @@
 // The dispatch of requests: which member function carries out which, where they are legal, recording and
-// replaying. The requests themselves: interpreter_blocks.cpp, _options.cpp, _attributes.cpp, _transforms.cpp,
-// _geometry.cpp.
+// replaying. The requests themselves: interpreter_blocks.cpp, _motion.cpp, _options.cpp, _attributes.cpp,
+// _transforms.cpp, _geometry.cpp.
 #include "render/state/interpreter.h"
 
 #include "render/rib/parser.h"
@@ -77,6 +77,15 @@ void Interpreter::request(const RequestCall& call) {
     warn_once(std::string(info.name), call.where, "rib-unsupported",
               fmt::format("{} is not supported yet: {}", info.name, info.lacks));
   if (!legal(call)) return;
+  if (in_motion_ && call.id != RequestId::kMotionEnd)
+    if (moved_by_motion_block(call)) return;
+  if (!motion_.empty() && is_transformation(call.id))
+    transform_request(call);
+  else
+    call_handler(call);
+}
+
+void Interpreter::call_handler(const RequestCall& call) {
   if (Handler h = handler(call.id)) (this->*h)(call);
 }
 
@@ -87,8 +96,7 @@ bool Interpreter::skipped(const RequestCall& call) {
     if (call.id == RequestId::kIfEnd && --skip_depth_ == 0) return false;
     return true;
   }
-  if (motion_calls_ < 0 || call.id == RequestId::kMotionEnd) return false;
-  return ++motion_calls_ > 1;
+  return false;
 }
 
 bool Interpreter::legal(const RequestCall& call) {

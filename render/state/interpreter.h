@@ -2,6 +2,7 @@
 // each world block over as a Scene. One member function per request; requests.def says which are legal where.
 #pragma once
 
+#include "render/prims/motion.h"
 #include "render/rib/ri_target.h"
 #include "render/state/scene.h"
 #include "slvm/support/diagnostics.h"
@@ -16,6 +17,11 @@ namespace render {
 struct ClassSizes {
   size_t uniform = 1, varying = 4, vertex = 4, facevarying = 4;
 };
+
+/// Requests that change the current transformation.
+bool is_transformation(RequestId);
+/// Requests that make surfaces.
+bool is_primitive(RequestId);
 
 class Interpreter : public RiTarget {
 public:
@@ -50,7 +56,18 @@ private:
     slvm::SourceRange where;
     std::shared_ptr<Attributes> attributes;
     Matrix4 ctm;
+    MotionMatrices motion;
     std::optional<Options> options;
+  };
+  /// The motion block that is open.
+  struct MotionBlock {
+    std::vector<float> times;
+    size_t calls = 0; ///< seen so far
+    RequestId kind = RequestId::kCount;
+    MotionMatrices before;                      ///< the transformation at each time when the block began
+    MotionMatrices transforms;                  ///< what the calls made of it
+    size_t first_primitive = 0, primitives = 0; ///< of the first call
+    std::vector<MotionShapes> shapes;           ///< of each of these
   };
   /// Requests kept for ObjectInstance or ArchiveInstance.
   struct Recording {
@@ -88,6 +105,12 @@ private:
   void solid_end(const RequestCall&);
   void motion_begin(const RequestCall&);
   void motion_end(const RequestCall&);
+  bool moved_by_motion_block(const RequestCall&);
+  void motion_transform(const RequestCall&, float time);
+  void motion_shape(const RequestCall&, float time);
+  void transform_request(const RequestCall&);
+  void call_handler(const RequestCall&);
+  MotionMatrices motion_keys() const;
   void object_begin(const RequestCall&);
   void object_instance(const RequestCall&);
   void archive_begin(const RequestCall&);
@@ -174,7 +197,10 @@ private:
 
   Options options_;
   std::shared_ptr<Attributes> attributes_;
-  Matrix4 ctm_; ///< to camera
+  Matrix4 ctm_;                 ///< to camera, when the shutter opens
+  MotionMatrices motion_;       ///< the same at the times of motion blocks; empty: it stands still
+  MotionMatrices world_motion_; ///< world to camera of a moving camera
+  std::optional<MotionBlock> in_motion_;
   std::vector<Block> blocks_;
   std::map<std::string, std::shared_ptr<const ShaderRequest>> lights_;
   std::map<std::string, Matrix4> spaces_;
@@ -182,9 +208,8 @@ private:
   Recording recording_;
   Scene scene_;
   bool in_world_ = false;
-  int motion_calls_ = -1; ///< requests seen in the open motion block; -1: none is open
-  int skip_depth_ = 0;    ///< > 0: in a branch that is not taken, so many conditions deep
-  int depth_ = 0;         ///< of archives and instances
+  int skip_depth_ = 0; ///< > 0: in a branch that is not taken, so many conditions deep
+  int depth_ = 0;      ///< of archives and instances
 };
 
 } // namespace render

@@ -1,4 +1,4 @@
-// Blocks: frames, worlds, attributes, transformations, motion, solids, objects, archives, conditions.
+// Blocks: frames, worlds, attributes, transformations, solids, objects, archives, conditions.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ constexpr std::string_view kBlockNames[] = {"FrameBegin", "WorldBegin",  "Attrib
 
 void Interpreter::open(const RequestCall& call, BlockKind kind) {
   if (blocks_.size() == kMaxBlocks) error(call, fmt::format("more than {} nested blocks", kMaxBlocks));
-  blocks_.push_back({kind, call.where, attributes_, ctm_, {}});
+  blocks_.push_back({kind, call.where, attributes_, ctm_, motion_, {}});
 }
 
 /// Restores what the innermost block of this kind saved. Blocks left open inside it are reported and closed
@@ -41,7 +41,10 @@ bool Interpreter::close(const RequestCall& call, BlockKind kind) {
   const Block& block = blocks_[at - 1];
   if (kind == BlockKind::kFrame || kind == BlockKind::kWorld || kind == BlockKind::kAttribute)
     attributes_ = block.attributes;
-  if (kind <= BlockKind::kTransform) ctm_ = block.ctm;
+  if (kind <= BlockKind::kTransform) {
+    ctm_ = block.ctm;
+    motion_ = block.motion;
+  }
   if (block.options) options_ = *block.options;
   blocks_.resize(at - 1);
   return true;
@@ -61,7 +64,9 @@ void Interpreter::world_begin(const RequestCall& call) {
   open(call, BlockKind::kWorld);
   in_world_ = true;
   scene_ = {};
+  if (!motion_.empty()) ctm_ = matrix_at(motion_, options_.shutter_open); // Shutter may have come after it
   scene_.world_to_camera = ctm_;
+  world_motion_ = motion_;
   scene_.options = options_;
   if (override_options) override_options(scene_.options);
 }
@@ -71,7 +76,7 @@ void Interpreter::world_end(const RequestCall& call) {
   // Closed first, so that a block left open is reported before a long render.
   close(call, BlockKind::kWorld);
   in_world_ = false;
-  motion_calls_ = -1;
+  in_motion_.reset();
   if (render_world_) render_world_(scene_);
   scene_ = {};
 }
@@ -93,16 +98,6 @@ void Interpreter::solid_begin(const RequestCall& call) {
 }
 void Interpreter::solid_end(const RequestCall& call) {
   close(call, BlockKind::kSolid);
-}
-
-void Interpreter::motion_begin(const RequestCall& call) {
-  open(call, BlockKind::kMotion);
-  motion_calls_ = 0;
-}
-
-void Interpreter::motion_end(const RequestCall& call) {
-  close(call, BlockKind::kMotion);
-  motion_calls_ = -1;
 }
 
 void Interpreter::object_begin(const RequestCall& call) {
@@ -138,9 +133,11 @@ void Interpreter::object_instance(const RequestCall& call) {
   // What an object changes of the state must not leak to what follows.
   auto attributes = attributes_;
   Matrix4 ctm = ctm_;
+  MotionMatrices motion = motion_;
   replay(call, *calls);
   attributes_ = attributes;
   ctm_ = ctm;
+  motion_ = std::move(motion);
 }
 
 void Interpreter::archive_instance(const RequestCall& call) {

@@ -96,6 +96,7 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
   auto state = std::make_shared<PrimitiveState>();
   state->attributes = attributes_;
   state->object_to_camera = ctm_;
+  state->motion = clip_to_shutter(motion_, scene_.options.shutter_open, scene_.options.shutter_close);
   state->camera_to_object = inverse_or_identity(ctm_);
   state->mirrored = slvm::determinant3(ctm_) < 0;
   if (attributes_->displacement_sphere > 0) {
@@ -112,6 +113,11 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
     state->displacement_bound = attributes_->displacement_sphere * longest;
   }
   return state;
+}
+
+bool is_primitive(RequestId id) {
+  return id >= RequestId::kSphere && id <= RequestId::kGeometry && id != RequestId::kBasis &&
+         id != RequestId::kTrimCurve;
 }
 
 /// A patch whose varying and vertex variables have four values.
