@@ -245,16 +245,13 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
   return out;
 }
 
-/// c' = (gain c)^(1/gamma), negative lobes of the filter kept (RISpec 3.2, 4.2.2).
 void FrameRenderer::expose(const PixelRect& rect) {
   if (options_.gain == 1 && options_.gamma == 1) return;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       float* p = image_.pixel(x, y);
-      for (int c = 0; c < 3; ++c) {
-        float v = options_.gain * p[Image::kCi + c];
-        p[Image::kCi + c] = std::copysign(std::pow(std::abs(v), 1 / options_.gamma), v);
-      }
+      for (int c = 0; c < 3; ++c)
+        p[Image::kCi + c] = exposed(p[Image::kCi + c], options_.gain, options_.gamma);
     }
 }
 

@@ -4,12 +4,19 @@
 #include "render/state/camera.h"
 #include "render/state/options.h"
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace render {
+
+/// (gain c)^(1/gamma), negative lobes of the filter kept (RISpec 3.2, 4.2.2).
+inline float exposed(float c, float gain, float gamma) {
+  float v = gain * c;
+  return gamma == 1 ? v : std::copysign(std::pow(std::abs(v), 1 / gamma), v);
+}
 
 /// What a Display asks for besides the standard channels: a shader variable, seen on the nearest surface, or
 /// the composited picture once more, with a filter of its own.

@@ -44,7 +44,8 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kScreenWindow, &I::screen_window), set(kCropWindow, &I::crop_window);
     set(kProjection, &I::projection), set(kClipping, &I::clipping), set(kShutter, &I::shutter);
     set(kPixelSamples, &I::pixel_samples), set(kPixelFilter, &I::pixel_filter), set(kExposure, &I::exposure);
-    set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display);
+    set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display),
+        set(kDisplayChannel, &I::display_channel);
     set(kDepthOfField, &I::depth_of_field), set(kHider, &I::hider), set(kOption, &I::option);
 
     set(kAttribute, &I::attribute), set(kColor, &I::color), set(kOpacity, &I::opacity);

@@ -138,6 +138,7 @@ private:
   void imager(const RequestCall&);
   void quantize(const RequestCall&);
   void display(const RequestCall&);
+  void display_channel(const RequestCall&);
   void depth_of_field(const RequestCall&);
   void hider(const RequestCall&);
   bool hider_parameter(const RequestCall&, const std::string& name, const slvm::Value& value);

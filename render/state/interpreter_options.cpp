@@ -164,6 +164,23 @@ void Interpreter::display(const RequestCall& call) {
   options_.displays.push_back(std::move(d));
 }
 
+void Interpreter::display_channel(const RequestCall& call) {
+  auto declared = declarations_.resolve(call.text(0));
+  if (!declared && call.text(0).find_first_of(" \t[") != std::string::npos) {
+    error_at(call.arguments[0].where, call, declared.error());
+    return;
+  }
+  ChannelRequest channel{call.text(0), {}, call.where};
+  for (const Param& p : call.params) {
+    auto value = loose_value(p, declarations_);
+    if (value)
+      channel.params[value->first] = value->second;
+    else
+      error_at(p.where, call, value.error());
+  }
+  options_.channels[declared ? declared->name : call.text(0)] = std::move(channel);
+}
+
 /// "-" or nothing: a pinhole.
 void Interpreter::depth_of_field(const RequestCall& call) {
   if (!call.has(1) || call.number(1) > 1e20f) {

@@ -58,6 +58,15 @@ struct Quantization {
   float dither = 0.5f;
   bool set = false; ///< by a request, not by default
   int zero = 0;     ///< what 0 becomes
+  /// No quantisation at all.
+  bool is_float() const { return one == zero; }
+};
+
+/// One DisplayChannel request.
+struct ChannelRequest {
+  std::string declaration; ///< "varying color name"
+  std::map<std::string, slvm::Value> params;
+  slvm::SourceRange where;
 };
 
 /// One Display request.
@@ -94,6 +103,7 @@ struct Options {
   Quantization rgba;
   Quantization z{0, 0, 0, 0, false};
   std::vector<DisplayRequest> displays;
+  std::map<std::string, ChannelRequest> channels; ///< by name
   std::shared_ptr<const ShaderRequest> imager;
 
   // limits
