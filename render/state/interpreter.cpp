@@ -48,6 +48,9 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
         set(kDisplayChannel, &I::display_channel);
     set(kDepthOfField, &I::depth_of_field), set(kHider, &I::hider), set(kOption, &I::option);
 
+    set(kMakeTexture, &I::make_request), set(kMakeShadow, &I::make_request);
+    set(kMakeLatLongEnvironment, &I::make_request), set(kMakeCubeFaceEnvironment, &I::make_request);
+
     set(kAttribute, &I::attribute), set(kColor, &I::color), set(kOpacity, &I::opacity);
     set(kTextureCoordinates, &I::texture_coordinates);
     set(kLightSource, &I::light_source), set(kAreaLightSource, &I::light_source),

@@ -44,6 +44,8 @@ public:
 
   /// The starting options; changes count until the file changes them.
   Options& options() { return options_; }
+  /// Carries out a Make request with the options of the moment; "" or what is wrong.
+  std::function<std::string(const RequestCall&, const Options&)> make_map;
   /// Called with the options at each WorldBegin: command-line overrides.
   std::function<void(Options&)> override_options;
   /// Directories "@" stands for in search paths, by kind of path.
@@ -145,6 +147,7 @@ private:
   void option(const RequestCall&);
   void search_path(const RequestCall&);
   void limits(const RequestCall&);
+  void make_request(const RequestCall&);
 
   // attributes
   void attribute(const RequestCall&);

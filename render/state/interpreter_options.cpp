@@ -282,6 +282,25 @@ void Interpreter::option(const RequestCall& call) {
               fmt::format("Option \"{}\" has no effect yet (shaders can read its values)", category));
 }
 
+namespace {
+
+/// swidth and twidth, which stand before the parameters.
+std::optional<std::array<float, 2>> make_widths(const RequestCall& call) {
+  if (call.id == RequestId::kMakeShadow) return {};
+  int first = call.id == RequestId::kMakeTexture ? 5 : call.id == RequestId::kMakeLatLongEnvironment ? 3 : 9;
+  return std::array{call.number(first), call.number(first + 1)};
+}
+
+} // namespace
+
+void Interpreter::make_request(const RequestCall& call) {
+  if (!make_map) return;
+  if (auto widths = make_widths(call); widths && (*widths)[0] * (*widths)[1] != 1)
+    warn_once("make widths", call.where, "rib-unsupported",
+              "filters of maps have a width of their own: swidth and twidth have no effect");
+  if (std::string why = make_map(call, options_); !why.empty()) error(call, why);
+}
+
 void Interpreter::search_path(const RequestCall& call) {
   for (const Param& p : call.params) {
     auto value = loose_value(p, declarations_);
