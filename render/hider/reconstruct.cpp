@@ -1,5 +1,5 @@
-// Weighted means of samples. Every sample is spread over the pixels its filter reaches, in the order of the
-// frame's rows: a pixel's sum has the same order whichever bucket makes it.
+// Weighted means of samples, always summed in the order of the frame's rows: a pixel does not depend on the
+// bucket that makes it.
 #include "render/hider/reconstruct.h"
 
 #include "render/hider/filter.h"
@@ -22,11 +22,33 @@ struct Term {
   int count, to;
 };
 
-/// The pixels from `from` to `to` whose centres are within half a width of `at`.
-void reach(float at, float width, int low, int high, int& from, int& to) {
-  from = std::max(low, static_cast<int>(std::ceil(at - width / 2 - 0.5f)));
-  to = std::min(high, static_cast<int>(std::floor(at + width / 2 - 0.5f)) + 1);
+/// The cells, of `density` a pixel, within half a width of `centre`.
+void reach(float centre, float width, int density, int cells, int& from, int& to) {
+  auto d = static_cast<float>(density);
+  from = std::max(0, static_cast<int>((centre - width / 2) * d));
+  to = std::min(cells, static_cast<int>((centre + width / 2) * d) + 1);
 }
+
+/// The factor of one axis of a separable filter, from a table: at most 1e-5 off for smooth filters. 0 beyond
+/// the filter's width.
+class AxisWeights {
+public:
+  AxisWeights(FilterKind kind, float width) : scale_(2 * kSteps / width) {
+    for (size_t i = 0; i <= kSteps; ++i)
+      table_[i] = axis_weight(kind, width / 2 * static_cast<float>(i) / kSteps, width);
+  }
+  float at(float offset) const {
+    float place = std::abs(offset) * scale_;
+    if (place > static_cast<float>(kSteps)) return 0;
+    auto i = static_cast<size_t>(static_cast<int>(place));
+    return table_[i] + (table_[i + 1] - table_[i]) * (place - static_cast<float>(static_cast<int>(place)));
+  }
+
+private:
+  static constexpr size_t kSteps = 512;
+  float scale_;
+  float table_[kSteps + 2] = {};
+};
 
 class Reconstruction {
 public:
@@ -40,8 +62,14 @@ public:
 
 private:
   void add_aovs();
-  void filter(const PixelFilter& filter, std::span<const Term> terms);
-  void plain_mean(int x, int y, std::span<const Term> terms);
+  struct Plan {
+    PixelFilter filter;
+    std::vector<Term> terms;
+  };
+  /// `standard`: the image's first channels, too. That of z is written over later.
+  template <bool standard> void filter(const Plan& plan);
+  void add(const Plan& plan, size_t sample, float weight, float* pixel) const;
+  template <bool standard> void plain_mean(const Plan& plan, int x, int y);
   float depth(int x, int y) const;
   void copy_samples();
   size_t sample(int x, int y, int i, int j) const {
@@ -56,30 +84,25 @@ private:
   std::span<const SampleResult> results_;
   std::span<const float> aov_;
   Image& image_;
-  struct Plan {
-    PixelFilter filter;
-    std::vector<Term> terms;
-  };
   std::vector<Plan> plans_;
-  std::vector<float> total_, wx_;
 };
 
 void Reconstruction::run() {
-  constexpr size_t kStride = sizeof(SampleResult) / sizeof(float);
-  plans_.push_back({settings_.filter, {{results_[0].Ci, kStride, 7, Image::kCi}}});
+  plans_.push_back({settings_.filter, {}});
   add_aovs();
   if (settings_.subpixel) {
     copy_samples();
     return;
   }
   for (int y = rect_.y0; y < rect_.y1; ++y)
-    for (int x = rect_.x0; x < rect_.x1; ++x) {
-      float* p = image_.pixel(x, y);
-      std::fill_n(p, image_.channels, 0.0f);
-      p[Image::kZ] = depth(x, y);
-    }
-  for (const Plan& plan : plans_)
-    filter(plan.filter, plan.terms);
+    for (int x = rect_.x0; x < rect_.x1; ++x)
+      std::fill_n(image_.pixel(x, y), image_.channels, 0.0f);
+  filter<true>(plans_[0]);
+  for (size_t i = 1; i < plans_.size(); ++i)
+    filter<false>(plans_[i]);
+  for (int y = rect_.y0; y < rect_.y1; ++y)
+    for (int x = rect_.x0; x < rect_.x1; ++x)
+      image_.pixel(x, y)[Image::kZ] = depth(x, y);
   for (const AovChannel& a : settings_.aovs)
     if (a.source == AovChannel::Source::kDepth)
       for (int y = rect_.y0; y < rect_.y1; ++y)
@@ -97,12 +120,12 @@ void Reconstruction::add_aovs() {
       term.samples = aov_.data() + a.first;
       term.stride = settings_.aov_floats();
       break;
-    case Source::kColor: term.samples = results_[0].Ci; break;
-    case Source::kOpacity: term.samples = results_[0].Oi; break;
-    case Source::kAlpha: term.samples = &results_[0].alpha; break;
+    case Source::kColor: term.samples = results_[0].channels; break;
+    case Source::kOpacity: term.samples = results_[0].channels + Image::kOi; break;
+    case Source::kAlpha: term.samples = results_[0].channels + Image::kAlpha; break;
     case Source::kDepth:
       if (!settings_.subpixel) continue; // depths are not blended
-      term.samples = &results_[0].z;
+      term.samples = results_[0].channels + Image::kZ;
       break;
     }
     const PixelFilter& f = a.filter ? *a.filter : settings_.filter;
@@ -115,56 +138,66 @@ void Reconstruction::add_aovs() {
   }
 }
 
-void Reconstruction::filter(const PixelFilter& filter, std::span<const Term> terms) {
-  bool separable = is_separable(filter.kind);
-  auto width = static_cast<size_t>(rect_.width());
-  total_.assign(width * static_cast<size_t>(rect_.height()), 0.0f);
-  for (size_t k = 0; k < results_.size(); ++k) {
-    Vec2 at = pattern_.at(k);
-    int x0, x1, y0, y1;
-    reach(at.x, filter.xwidth, rect_.x0, rect_.x1, x0, x1);
-    reach(at.y, filter.ywidth, rect_.y0, rect_.y1, y0, y1);
-    if (x0 >= x1) continue;
-    if (separable) {
-      wx_.clear();
-      for (int x = x0; x < x1; ++x)
-        wx_.push_back(axis_weight(filter.kind, at.x - (static_cast<float>(x) + 0.5f), filter.xwidth));
-    }
-    for (int y = y0; y < y1; ++y) {
-      float dy = at.y - (static_cast<float>(y) + 0.5f);
-      float wy = separable ? axis_weight(filter.kind, dy, filter.ywidth) : 0;
-      float* p = image_.pixel(x0, y);
-      float* total = &total_[static_cast<size_t>(y - rect_.y0) * width + static_cast<size_t>(x0 - rect_.x0)];
-      for (int x = x0; x < x1; ++x, p += image_.channels, ++total) {
-        float w = separable ? wx_[static_cast<size_t>(x - x0)] * wy
-                            : filter_weight(filter, at.x - (static_cast<float>(x) + 0.5f), dy);
-        *total += w;
-        for (const Term& t : terms)
-          for (int c = 0; c < t.count; ++c)
-            p[t.to + c] += w * t.samples[k * t.stride + static_cast<size_t>(c)];
-      }
-    }
-  }
-  size_t i = 0;
-  for (int y = rect_.y0; y < rect_.y1; ++y)
-    for (int x = rect_.x0; x < rect_.x1; ++x, ++i) {
-      // A filter so narrow that it missed all samples: the plain mean of the pixel.
-      if (total_[i] == 0) plain_mean(x, y, terms);
-      float divisor = total_[i] == 0 ? 1 : total_[i];
-      for (const Term& t : terms)
-        for (int c = 0; c < t.count; ++c)
-          image_.pixel(x, y)[t.to + c] /= divisor;
-    }
+void Reconstruction::add(const Plan& plan, size_t sample, float weight, float* pixel) const {
+  for (const Term& t : plan.terms)
+    for (int c = 0; c < t.count; ++c)
+      pixel[t.to + c] += weight * t.samples[sample * t.stride + static_cast<size_t>(c)];
 }
 
-void Reconstruction::plain_mean(int x, int y, std::span<const Term> terms) {
-  float w = 1 / static_cast<float>(size_.xsamples * size_.ysamples);
-  for (int j = 0; j < size_.ysamples; ++j)
-    for (int i = 0; i < size_.xsamples; ++i)
-      for (const Term& t : terms)
+template <bool standard> void Reconstruction::filter(const Plan& plan) {
+  const PixelFilter& filter = plan.filter;
+  bool separable = is_separable(filter.kind);
+  AxisWeights x_weights(filter.kind, filter.xwidth), y_weights(filter.kind, filter.ywidth);
+  auto width = static_cast<size_t>(pattern_.width());
+  for (int y = rect_.y0; y < rect_.y1; ++y) {
+    float cy = static_cast<float>(y) + 0.5f;
+    int j0, j1;
+    reach(cy - static_cast<float>(covered_.y0), filter.ywidth, size_.ysamples, pattern_.height(), j0, j1);
+    for (int x = rect_.x0; x < rect_.x1; ++x) {
+      float cx = static_cast<float>(x) + 0.5f;
+      int i0, i1;
+      reach(cx - static_cast<float>(covered_.x0), filter.xwidth, size_.xsamples, pattern_.width(), i0, i1);
+      // Summed here and not in the image, to stay in registers.
+      float sum[Image::kAov] = {};
+      float* p = image_.pixel(x, y);
+      float total = 0;
+      for (int j = j0; j < j1; ++j)
+        for (size_t k = static_cast<size_t>(j) * width + static_cast<size_t>(i0),
+                    end = k + static_cast<size_t>(i1 - i0);
+             k < end; ++k) {
+          float dx = pattern_.at(k).x - cx, dy = pattern_.at(k).y - cy;
+          float w = separable ? x_weights.at(dx) * y_weights.at(dy) : filter_weight(filter, dx, dy);
+          total += w;
+          if constexpr (standard)
+            for (int c = 0; c < Image::kAov; ++c)
+              sum[c] += w * results_[k].channels[c];
+          add(plan, k, w, p);
+        }
+      // A filter so narrow that it missed all samples: the plain mean of the pixel.
+      if (total == 0) {
+        plain_mean<standard>(plan, x, y);
+        continue;
+      }
+      for (int c = 0; standard && c < Image::kAov; ++c)
+        p[c] = sum[c] / total;
+      for (const Term& t : plan.terms)
         for (int c = 0; c < t.count; ++c)
-          image_.pixel(x, y)[t.to + c] +=
-              w * t.samples[sample(x, y, i, j) * t.stride + static_cast<size_t>(c)];
+          p[t.to + c] /= total;
+    }
+  }
+}
+
+template <bool standard> void Reconstruction::plain_mean(const Plan& plan, int x, int y) {
+  float w = 1 / static_cast<float>(size_.xsamples * size_.ysamples);
+  float* p = image_.pixel(x, y);
+  std::fill_n(p, standard ? Image::kAov : 0, 0.0f);
+  for (int j = 0; j < size_.ysamples; ++j)
+    for (int i = 0; i < size_.xsamples; ++i) {
+      size_t k = sample(x, y, i, j);
+      for (int c = 0; standard && c < Image::kAov; ++c)
+        p[c] += w * results_[k].channels[c];
+      add(plan, k, w, p);
+    }
 }
 
 /// From the pixel's own samples: those without a surface do not count unless all are so.
@@ -176,7 +209,7 @@ float Reconstruction::depth(int x, int y) const {
   int count = 0;
   for (int j = 0; j < size_.ysamples; ++j)
     for (int i = 0; i < size_.xsamples; ++i) {
-      float z = results_[sample(x, y, i, j)].z;
+      float z = results_[sample(x, y, i, j)].channels[Image::kZ];
       if (z == kInfinity) continue;
       best = std::min(best, z);
       most = std::max(most, z);
@@ -195,10 +228,11 @@ void Reconstruction::copy_samples() {
         for (int i = 0; i < size_.xsamples; ++i) {
           size_t k = sample(x, y, i, j);
           float* p = image_.pixel(x * size_.xsamples + i, y * size_.ysamples + j);
+          std::copy_n(results_[k].channels, Image::kAov, p);
           for (const Plan& plan : plans_)
             for (const Term& t : plan.terms)
               std::copy_n(t.samples + k * t.stride, t.count, p + t.to);
-          p[Image::kZ] = std::min(results_[k].z, Image::kEmptyDepth);
+          p[Image::kZ] = std::min(results_[k].channels[Image::kZ], Image::kEmptyDepth);
         }
 }
 

@@ -10,9 +10,9 @@
 
 namespace render {
 
-/// What a sample comes to, in the order of an image's first channels. z: infinite where nothing is.
+/// What a sample comes to: the first channels of an image. z: infinite where nothing is.
 struct SampleResult {
-  float Ci[3] = {0, 0, 0}, Oi[3] = {0, 0, 0}, alpha = 0, z = kInfinity;
+  float channels[Image::kAov] = {0, 0, 0, 0, 0, 0, 0, kInfinity};
 };
 
 struct ReconstructionSettings {

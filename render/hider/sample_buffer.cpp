@@ -22,21 +22,34 @@ struct Edge {
   bool left(float value) const { return (value >= 0) != swapped; }
 };
 
-struct Triangle {
-  Edge ab, bc, ca;
-  Triangle(Vec2 a, Vec2 b, Vec2 c) : ab(a, b), bc(b, c), ca(c, a) {}
-  /// Barycentric weights of a, b, c when p is inside.
-  bool contains(Vec2 p, float (&weights)[3]) const {
-    float e[3] = {bc.value(p), ca.value(p), ab.value(p)};
-    bool l0 = bc.left(e[0]), l1 = ca.left(e[1]), l2 = ab.left(e[2]);
-    if (l0 != l1 || l1 != l2) return false;
-    float sum = 0;
-    for (float& x : e)
-      sum += x = std::abs(x);
-    if (!(sum > 0)) return false;
-    for (int i = 0; i < 3; ++i)
-      weights[i] = e[i] / sum;
-    return true;
+/// A micropolygon as two triangles with the side a-d in common: a, b, d and a, d, c.
+struct Quad {
+  Edge ab, bd, da, dc, ca;
+  Quad(Vec2 a, Vec2 b, Vec2 c, Vec2 d) : ab(a, b), bd(b, d), da(d, a), dc(d, c), ca(c, a) {}
+  enum Part { kOutside, kFirst, kSecond };
+  /// The triangle p is in, and its barycentric weights there, in the order above. Of a folded micropolygon
+  /// that covers p twice only the first triangle counts.
+  Part find(Vec2 p, float (&weights)[3]) const {
+    float diagonal = da.value(p);
+    bool side = da.left(diagonal);
+    if (float e = ab.value(p); ab.left(e) == side)
+      if (float f = bd.value(p); bd.left(f) == side) return weigh(f, diagonal, e, kFirst, weights);
+    if (float e = dc.value(p); dc.left(e) != side)
+      if (float f = ca.value(p); ca.left(f) != side) return weigh(e, f, diagonal, kSecond, weights);
+    return kOutside;
+  }
+
+private:
+  static Part weigh(float a, float b, float c, Part part, float (&weights)[3]) {
+    a = std::abs(a);
+    b = std::abs(b);
+    c = std::abs(c);
+    float sum = a + b + c;
+    if (!(sum > 0)) return kOutside;
+    weights[0] = a / sum;
+    weights[1] = b / sum;
+    weights[2] = c / sum;
+    return part;
   }
 };
 
@@ -74,7 +87,7 @@ PixelRect with_margins(const PixelRect& r, const ReconstructionSettings& s) {
 SampleBuffer::SampleBuffer(PixelRect rect, const SamplingSettings& settings)
     : settings_(settings), rect_(rect), covered_(with_margins(rect, settings.reconstruction)),
       pattern_(covered_, settings.size, settings.moving || settings.lens), samples_(pattern_.count()),
-      sample_aov_(samples_.size() * settings.aov_floats()), open_(samples_.size()),
+      aovs_(settings.aov_floats()), sample_aov_(samples_.size() * aovs_), open_(samples_.size()),
       midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {}
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
@@ -94,43 +107,37 @@ namespace {
 
 /// The whole numbers from `from` to `to`, both included, that are below `size`.
 void cells(float from, float to, int size, int& begin, int& end) {
-  begin = static_cast<int>(std::clamp(std::floor(from), 0.0f, static_cast<float>(size)));
-  end = static_cast<int>(std::clamp(std::floor(to) + 1, 0.0f, static_cast<float>(size)));
+  // What is clamped at 0 is cut off like floor().
+  auto limit = static_cast<float>(size);
+  begin = static_cast<int>(std::clamp(from, 0.0f, limit));
+  end = to < 0 ? 0 : static_cast<int>(std::min(to + 1, limit));
 }
 
 } // namespace
 
 void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
   auto nu = static_cast<size_t>(grid.nu);
-  size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
   const auto& position = grid.position;
-  Vec2 p[4];
-  Vec2 low(kInfinity), high(-kInfinity);
-  for (int i = 0; i < 4; ++i) {
-    p[i] = Vec2(position[corner[i]]);
-    low = glm::min(low, p[i]);
-    high = glm::max(high, p[i]);
-  }
+  Vec2 p[4] = {Vec2(position[k]), Vec2(position[k + 1]), Vec2(position[k + nu]), Vec2(position[k + nu + 1])};
+  Vec2 low = glm::min(glm::min(p[0], p[1]), glm::min(p[2], p[3]));
+  Vec2 high = glm::max(glm::max(p[0], p[1]), glm::max(p[2], p[3]));
   auto xs = static_cast<float>(settings_.size.xsamples), ys = static_cast<float>(settings_.size.ysamples);
   auto x0 = static_cast<float>(covered_.x0), y0 = static_cast<float>(covered_.y0);
   int i0, i1, j0, j1;
   cells((low.x - x0) * xs, (high.x - x0) * xs, pattern_.width(), i0, i1);
   cells((low.y - y0) * ys, (high.y - y0) * ys, pattern_.height(), j0, j1);
   if (i0 >= i1 || j0 >= j1) return;
-  Triangle first(p[0], p[1], p[3]), second(p[0], p[3], p[2]);
+  Quad quad(p[0], p[1], p[2], p[3]);
   float weights[3];
-  auto z = [&](size_t a, size_t b, size_t c) {
-    return blend(position[a].z, position[b].z, position[c].z, weights);
-  };
   for (int j = j0; j < j1; ++j)
     for (int i = i0; i < i1; ++i) {
       size_t index = static_cast<size_t>(j) * static_cast<size_t>(pattern_.width()) + static_cast<size_t>(i);
-      Vec2 at = pattern_.at(index);
-      if (first.contains(at, weights))
-        hit(grid, index, {corner[0], corner[1], corner[3]}, weights, z(corner[0], corner[1], corner[3]));
-      // A folded micropolygon may cover a sample twice; it counts once.
-      else if (second.contains(at, weights))
-        hit(grid, index, {corner[0], corner[3], corner[2]}, weights, z(corner[0], corner[3], corner[2]));
+      Quad::Part part = quad.find(pattern_.at(index), weights);
+      if (part == Quad::kOutside) continue;
+      size_t second = part == Quad::kFirst ? k + 1 : k + nu + 1,
+             third = part == Quad::kFirst ? k + nu + 1 : k + nu;
+      hit(grid, index, {k, second, third}, weights,
+          blend(position[k].z, position[second].z, position[third].z, weights));
     }
 }
 
@@ -175,14 +182,13 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
             p[c] += Vec3(
                 settings_.lens->lens_to_raster(pattern_.lens(index)) * settings_.lens->defocus(p[c].z), 0);
         }
-        Vec2 at = pattern_.at(index);
         float weights[3];
-        if (Triangle(Vec2(p[0]), Vec2(p[1]), Vec2(p[3])).contains(at, weights))
-          hit(grid, index, {corner[0], corner[1], corner[3]}, weights,
-              blend(p[0].z, p[1].z, p[3].z, weights));
-        else if (Triangle(Vec2(p[0]), Vec2(p[3]), Vec2(p[2])).contains(at, weights))
-          hit(grid, index, {corner[0], corner[3], corner[2]}, weights,
-              blend(p[0].z, p[3].z, p[2].z, weights));
+        Quad::Part part =
+            Quad(Vec2(p[0]), Vec2(p[1]), Vec2(p[2]), Vec2(p[3])).find(pattern_.at(index), weights);
+        if (part == Quad::kOutside) continue;
+        size_t second = part == Quad::kFirst ? 1 : 3, third = part == Quad::kFirst ? 3 : 2;
+        hit(grid, index, {corner[0], corner[second], corner[third]}, weights,
+            blend(p[0].z, p[second].z, p[third].z, weights));
       }
   }
 }
@@ -204,8 +210,7 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
     Ci = blend(Ci, grid.Ci[corners[1]], grid.Ci[corners[2]], weights);
     Oi = blend(Oi, grid.Oi[corners[1]], grid.Oi[corners[2]], weights);
   }
-  size_t aovs = settings_.aov_floats();
-  const float* aov = grid.aov.data() + corners[0] * aovs;
+  const float* aov = grid.aov.data() + corners[0] * aovs_;
   if (reaches(Oi, settings_.opacity_threshold)) {
     farthest_known_ = false;
     bool was_open = (midpoint_ ? sample.second : sample.z) == kInfinity;
@@ -216,13 +221,13 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
     sample.Ci = Ci;
     sample.Oi = Oi;
     sample.matte = grid.matte;
-    std::copy_n(aov, aovs, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs));
+    std::copy_n(aov, aovs_, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_));
     return;
   }
   if (z >= sample.z || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
   auto order = static_cast<uint32_t>(fragments_.size());
   fragments_.push_back({Ci, Oi, z, sample.fragments, order, grid.matte});
-  fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs);
+  fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs_);
   sample.fragments = order;
 }
 
@@ -256,33 +261,33 @@ SampleResult SampleBuffer::composite(size_t index) {
     }
     through *= Color(1.0f) - Oi;
   };
-  size_t aovs = settings_.aov_floats();
-  auto own_aov = sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs);
+  auto own_aov = sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_);
   bool seen = false, closed = false;
   for (const Fragment* f : scratch_) {
     if (!seen && !f->matte) {
       seen = true;
-      std::copy_n(fragment_aov_.begin() + static_cast<std::ptrdiff_t>(f->order * aovs), aovs, own_aov);
+      std::copy_n(fragment_aov_.begin() + static_cast<std::ptrdiff_t>(f->order * aovs_), aovs_, own_aov);
     }
-    if (!f->matte && reaches(f->Oi, settings_.depth_threshold)) out.z = std::min(out.z, f->z);
+    if (!f->matte && reaches(f->Oi, settings_.depth_threshold))
+      out.channels[Image::kZ] = std::min(out.channels[Image::kZ], f->z);
     add(f->Ci, f->Oi, f->matte);
     closed = reaches(Color(1.0f) - through, settings_.opacity_threshold);
     if (closed) break;
   }
   if (!closed && sample.z < kInfinity) {
     add(sample.Ci, sample.Oi, sample.matte);
-    if (sample.matte && !seen) std::fill_n(own_aov, aovs, 0.0f);
+    if (sample.matte && !seen) std::fill_n(own_aov, aovs_, 0.0f);
   }
   if (sample.z < kInfinity && !sample.matte) {
     float z = sample.z;
     if (midpoint_ && sample.second < kInfinity) z = 0.5f * (z + sample.second);
-    out.z = std::min(out.z, z);
+    out.channels[Image::kZ] = std::min(out.channels[Image::kZ], z);
   }
   for (int c = 0; c < 3; ++c) {
-    out.Ci[c] = C[c];
-    out.Oi[c] = O[c];
+    out.channels[Image::kCi + c] = C[c];
+    out.channels[Image::kOi + c] = O[c];
   }
-  out.alpha = (O.x + O.y + O.z) / 3;
+  out.channels[Image::kAlpha] = (O.x + O.y + O.z) / 3;
   return out;
 }
 

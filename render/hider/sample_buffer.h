@@ -72,6 +72,7 @@ private:
   SamplePattern pattern_;
   std::vector<Sample> samples_;
   std::vector<Fragment> fragments_;
+  size_t aovs_; ///< floats of variables for each sample
   std::vector<float> sample_aov_, fragment_aov_;
   std::vector<const Fragment*> scratch_;
   size_t open_;
