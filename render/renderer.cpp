@@ -6,12 +6,14 @@
 #include "render/map_requests.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
+#include "render/statistics.h"
 #include "render/texture/depth_image.h"
 #include "render/texture/find_image.h"
 #include "render/texture/texture_maps.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <set>
 #include <tuple>
 
@@ -63,6 +65,12 @@ void Renderer::Impl::render(Scene& frame) {
   s.threads = settings.threads;
   s.aovs = display_aovs(frame.options, diagnostics);
   s.progress = settings.progress;
+  using Clock = std::chrono::steady_clock;
+  auto seconds_since = [](Clock::time_point from) {
+    return std::chrono::duration<double>(Clock::now() - from).count();
+  };
+  FrameStatistics statistics;
+  auto started = Clock::now();
   BoundShaders shaders(frame, machine, cache, diagnostics);
   flush();
   if (s.progress) s.progress(0);
@@ -71,8 +79,11 @@ void Renderer::Impl::render(Scene& frame) {
   VmShading shading(machine, shaders, services);
   DepthMask mask;
   if (load_mask(frame.options, mask)) s.mask = &mask;
-  FrameReport report;
+  FrameReport& report = statistics.report;
+  statistics.bind_seconds = seconds_since(started);
+  started = Clock::now();
   Image image = render_frame(frame, shading, s, report);
+  statistics.render_seconds = seconds_since(started);
   report_runtime_messages();
   for (const auto& [wanted, used] : textures.replaced())
     if (replaced.insert(wanted).second)
@@ -83,8 +94,25 @@ void Renderer::Impl::render(Scene& frame) {
                         fmt::format("{} shading points have a colour that is not a finite number; "
                                     "they are drawn black",
                                     report.bad_colours));
+  started = Clock::now();
   for (std::string& name : write_displays(frame, image, s.aovs, diagnostics))
     written.push_back(std::move(name));
+  statistics.write_seconds = seconds_since(started);
+  if (settings.statistics) {
+    const Options& o = frame.options;
+    statistics.frame = o.frame;
+    if (auto it = o.named.find("statistics:endofframe"); it != o.named.end() && !it->second.numbers.empty())
+      statistics.asked_for = it->second.numbers[0] > 0;
+    statistics.width = image.rect.width();
+    statistics.height = image.rect.height();
+    statistics.samples_per_pixel = o.xsamples * o.ysamples;
+    statistics.threads = thread_count(s.threads);
+    auto [files, bytes] = textures.usage();
+    statistics.texture_files = files;
+    statistics.texture_bytes = bytes;
+    statistics.peak_bytes = peak_memory();
+    settings.statistics(statistics);
+  }
   flush();
 }
 

@@ -159,6 +159,9 @@ slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
 
   OIIO::ImageSpec spec(image_.rect.width(), image_.rect.height(), static_cast<int>(channels.size()), type);
   fill_spec(spec, channels);
+  // Rendered noise hardly gets smaller by trying harder.
+  spec.attribute("tiff:zipquality", 2);
+  spec.attribute("png:compressionLevel", 2);
   if (auto it = d.params.find("compression"); it != d.params.end() && !it->second.strings.empty())
     spec.attribute("compression", it->second.strings[0]);
   std::vector<std::byte> pixels;

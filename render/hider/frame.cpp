@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -52,7 +53,7 @@ public:
     if (camera_.has_lens()) sampling_.lens = &camera_;
     sampling_.mask = settings.mask;
     sampling_.mask_scale = {1 / static_cast<float>(options_.xres), 1 / static_cast<float>(options_.yres)};
-    threads_ = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
+    threads_ = thread_count(settings.threads);
     image_ = Image(image_rect(camera_.crop()), static_cast<int>(sampling_.aov_floats()));
   }
 
@@ -62,7 +63,7 @@ private:
   struct Worker {
     std::unique_ptr<GridShader> shader;
     slvm::Grid grid{2, 2};
-    size_t shaded_grids = 0, shaded_points = 0, bad_colours = 0;
+    FrameReport report;
   };
 
   void split_all();
@@ -77,6 +78,8 @@ private:
   }
   void expose(const PixelRect& rect);
   void run_imager(const PixelRect& rect, Worker& worker);
+  static void count(const Primitive& primitive, const slvm::Grid& grid,
+                    std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
 
   const Scene& scene_;
@@ -116,9 +119,16 @@ Image FrameRenderer::run(FrameReport& report) {
   });
   report.grids += tasks_.size();
   for (const Worker& w : workers) {
-    report.shaded_grids += w.shaded_grids;
-    report.shaded_points += w.shaded_points;
-    report.bad_colours += w.bad_colours;
+    report.shaded_grids += w.report.shaded_grids;
+    report.shaded_points += w.report.shaded_points;
+    report.micropolygons += w.report.micropolygons;
+    report.bad_colours += w.report.bad_colours;
+    for (const auto& [name, cost] : w.report.shaders) {
+      ShaderCost& sum = report.shaders[name];
+      sum.seconds += cost.seconds;
+      sum.grids += cost.grids;
+      sum.points += cost.points;
+    }
   }
   return std::move(image_);
 }
@@ -212,6 +222,19 @@ const ShadedGrid* FrameRenderer::shaded(uint32_t task, Worker& worker) {
   return slot.grid.get();
 }
 
+void FrameRenderer::count(const Primitive& primitive, const slvm::Grid& grid,
+                          std::chrono::steady_clock::time_point started, FrameReport& report) {
+  std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
+  const auto& surface = primitive.attributes().surface;
+  ShaderCost& cost = report.shaders[surface ? surface->name : "none"];
+  cost.seconds += seconds.count();
+  ++cost.grids;
+  cost.points += grid.points();
+  ++report.shaded_grids;
+  report.shaded_points += grid.points();
+  report.micropolygons += static_cast<size_t>(grid.nu() - 1) * static_cast<size_t>(grid.nv() - 1);
+}
+
 /// Null when nothing of the grid can be seen.
 std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& worker) {
   const GridTask& task = tasks_[index];
@@ -220,6 +243,7 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
                       options_.shutter_close - options_.shutter_open};
   slvm::Grid& grid = worker.grid;
   dice(primitive, task, index, context, grid);
+  auto started = std::chrono::steady_clock::now();
   std::optional<GridOutline> outline;
   if (!primitive.geometry->ruled())
     outline = find_outline(grid, task.rect, camera_, std::sqrt(primitive.attributes().shading_rate));
@@ -235,13 +259,12 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
   }
   if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);
   worker.shader->shade(primitive, grid);
-  ++worker.shaded_grids;
-  worker.shaded_points += grid.points();
+  count(primitive, grid, started, worker.report);
   auto out = std::make_unique<ShadedGrid>(make_shaded_grid(
       primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
   for (size_t i = 0; i < moved.size(); ++i)
     add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
-  worker.bad_colours += out->bad_colours;
+  worker.report.bad_colours += out->bad_colours;
   return out;
 }
 
@@ -304,6 +327,10 @@ void FrameRenderer::report_progress() {
 }
 
 } // namespace
+
+int thread_count(int threads) {
+  return threads > 0 ? threads : tbb::this_task_arena::max_concurrency();
+}
 
 Image render_frame(const Scene& scene, Shading& shading, const FrameSettings& settings, FrameReport& report) {
   return FrameRenderer(scene, shading, settings).run(report);

@@ -8,7 +8,9 @@
 #include "render/state/scene.h"
 
 #include <functional>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace render {
@@ -21,11 +23,21 @@ struct FrameSettings {
   std::function<void(double)> progress;
 };
 
+/// What the grids of one surface shader cost, displacement and lights included, on all threads together.
+struct ShaderCost {
+  double seconds = 0;
+  size_t grids = 0, points = 0;
+};
+
 /// What a user should be told about a frame.
 struct FrameReport {
-  size_t primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0;
-  size_t bad_colours = 0; ///< shading points whose colour was not a finite number
+  size_t primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0, micropolygons = 0;
+  std::map<std::string, ShaderCost> shaders; ///< by name of the surface shader
+  size_t bad_colours = 0;                    ///< shading points whose colour was not a finite number
 };
+
+/// The threads that FrameSettings::threads stands for.
+int thread_count(int threads);
 
 /// The same pixels, to the last bit, for any number of threads.
 Image render_frame(const Scene& scene, Shading& shading, const FrameSettings& settings, FrameReport& report);

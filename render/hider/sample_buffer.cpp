@@ -88,7 +88,18 @@ SampleBuffer::SampleBuffer(PixelRect rect, const SamplingSettings& settings)
     : settings_(settings), rect_(rect), covered_(with_margins(rect, settings.reconstruction)),
       pattern_(covered_, settings.size, settings.moving || settings.lens), samples_(pattern_.count()),
       aovs_(settings.aov_floats()), sample_aov_(samples_.size() * aovs_), open_(samples_.size()),
-      midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {}
+      midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {
+  if (!settings_.lens) return;
+  for (size_t i = 0; i < samples_.size(); ++i)
+    lens_.push_back(settings_.lens->lens_to_raster(pattern_.lens(i)));
+  for (int s = 0; s < pattern_.strata(); ++s) {
+    auto [low, high] = pattern_.lens_box(s);
+    Box& box = lens_boxes_.emplace_back();
+    for (float x : {low.x, high.x})
+      for (float y : {low.y, high.y})
+        box.add(Vec3(settings_.lens->lens_to_raster({x, y}), 0));
+  }
+}
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
   auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
@@ -145,27 +156,30 @@ void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
 /// there the one sample that belongs to the stratum.
 void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
   auto nu = static_cast<size_t>(grid.nu);
-  size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
+  const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
+  const Camera* lens = settings_.lens;
   constexpr float kSlack = 1e-3f;
   auto n = static_cast<float>(pattern_.strata());
+  bool still = grid.times.empty();
+  Vec3 now[4], next[4];
+  for (size_t c = 0; c < 4; ++c)
+    now[c] = next[c] = grid.position[corner[c]];
   for (int s = 0; s < pattern_.strata(); ++s) {
     float from = static_cast<float>(s) / n, to = static_cast<float>(s + 1) / n;
     Box box;
-    for (size_t c : corner) {
-      box.add(grid.at(c, from));
-      box.add(grid.at(c, to));
+    for (size_t c = 0; c < 4; ++c) {
+      box.add(now[c]);
+      if (still) continue;
+      box.add(next[c] = grid.at(corner[c], to));
+      now[c] = next[c];
       for (size_t t = 0; t < grid.times.size(); ++t)
-        if (grid.times[t] > from && grid.times[t] < to) box.add(grid.position[t * grid.points() + c]);
+        if (grid.times[t] > from && grid.times[t] < to) box.add(grid.position[t * grid.points() + corner[c]]);
     }
-    if (settings_.lens) {
-      auto [lens_low, lens_high] = pattern_.lens_box(s);
-      Box shifts;
-      for (float d : {settings_.lens->defocus(box.min.z), settings_.lens->defocus(box.max.z)})
-        for (float x : {lens_low.x, lens_high.x})
-          for (float y : {lens_low.y, lens_high.y})
-            shifts.add(Vec3(settings_.lens->lens_to_raster({x, y}) * d, 0));
-      box.min += shifts.min;
-      box.max += shifts.max;
+    if (lens) {
+      const Box& shift = lens_boxes_[static_cast<size_t>(s)];
+      float a = lens->defocus(box.min.z), b = lens->defocus(box.max.z);
+      box.min += glm::min(glm::min(shift.min * a, shift.max * a), glm::min(shift.min * b, shift.max * b));
+      box.max += glm::max(glm::max(shift.min * a, shift.max * a), glm::max(shift.min * b, shift.max * b));
     }
     int i0, i1, j0, j1;
     cells(box.min.x - kSlack - static_cast<float>(covered_.x0),
@@ -177,10 +191,8 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
         size_t index = pattern_.of_stratum(i, j, s);
         Vec3 p[4];
         for (size_t c = 0; c < 4; ++c) {
-          p[c] = grid.at(corner[c], pattern_.time(index));
-          if (settings_.lens)
-            p[c] += Vec3(
-                settings_.lens->lens_to_raster(pattern_.lens(index)) * settings_.lens->defocus(p[c].z), 0);
+          p[c] = still ? now[c] : grid.at(corner[c], pattern_.time(index));
+          if (lens) p[c] += Vec3(lens_[index] * lens->defocus(p[c].z), 0);
         }
         float weights[3];
         Quad::Part part =

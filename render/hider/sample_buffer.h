@@ -71,6 +71,8 @@ private:
   PixelRect rect_, covered_;
   SamplePattern pattern_;
   std::vector<Sample> samples_;
+  std::vector<Vec2> lens_;      ///< each sample's point of the lens, as raster shift without defocus
+  std::vector<Box> lens_boxes_; ///< the same, of each stratum
   std::vector<Fragment> fragments_;
   size_t aovs_; ///< floats of variables for each sample
   std::vector<float> sample_aov_, fragment_aov_;

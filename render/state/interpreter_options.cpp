@@ -277,7 +277,7 @@ void Interpreter::option(const RequestCall& call) {
   }
   if (category == "limits")
     limits(call);
-  else if (category != "user" && category != "shutter")
+  else if (category != "user" && category != "shutter" && category != "statistics")
     warn_once("Option " + category, call.where, "rib-unsupported",
               fmt::format("Option \"{}\" has no effect yet (shaders can read its values)", category));
 }

@@ -101,6 +101,16 @@ std::map<std::string, std::string> TextureMaps::replaced() {
   return replaced_;
 }
 
+TextureMaps::Usage TextureMaps::usage() {
+  if (!system_) return {};
+  Usage out;
+  int files = 0;
+  (*system_)->getattribute("stat:unique_files", OIIO::TypeDesc::INT, &files);
+  (*system_)->getattribute("stat:cache_memory_used", OIIO::TypeDesc::INT64, &out.bytes);
+  out.files = files;
+  return out;
+}
+
 TextureMaps::System& TextureMaps::system() {
   std::call_once(system_made_, [&] { system_ = std::make_unique<System>(settings_); });
   return *system_;

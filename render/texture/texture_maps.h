@@ -33,6 +33,12 @@ public:
   /// Maps that were missing, and the files found in their place (find_image.h).
   std::map<std::string, std::string> replaced();
 
+  /// Files read so far, and memory their tiles take.
+  struct Usage {
+    long long files = 0, bytes = 0;
+  };
+  Usage usage();
+
 private:
   class System;
   System& system(); ///< made when it is first asked for

@@ -16,9 +16,10 @@ namespace render::tools {
 
 namespace {
 
-constexpr std::string_view kLongNames[] = {"help",    "version", "progress", "Progress", "progressformat",
-                                           "crop",    "res",     "cwd",      "shaders",  "archives",
-                                           "threads", "verbose", "nowarn",   "Werror"};
+constexpr std::string_view kLongNames[] = {"help",           "version",  "progress",   "Progress",
+                                           "progressformat", "crop",     "res",        "cwd",
+                                           "shaders",        "archives", "threads",    "verbose",
+                                           "nowarn",         "Werror",   "statistics", "statisticsfile"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -96,6 +97,10 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
   app.add_flag(
       "-v,--verbose", [&](auto n) { out.verbosity = 1 + static_cast<int>(n); }, "say what is done");
+  app.add_flag("--statistics", out.statistics,
+               "print what each frame cost: grids, shading by shader, memory");
+  app.add_option("--statisticsfile", out.statistics_file,
+                 "write it to a file, a line of JSON for each frame");
   app.add_flag("--nowarn", out.no_warnings, "no warnings");
   app.add_flag("--Werror", out.warnings_are_errors, "warnings are errors");
   app.footer(

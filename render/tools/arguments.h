@@ -21,6 +21,8 @@ struct Arguments {
   std::string display; ///< a file name or a Display type
   std::string directory;
   std::vector<std::string> shader_path, archive_path;
+  bool statistics = false;
+  std::string statistics_file; ///< JSON lines; empty: none
   int verbosity = 1;
   bool warnings_are_errors = false, no_warnings = false;
 
