@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +53,18 @@ std::string make(algo::MakeTextureMode mode, const ImageBuf& image, const std::s
   return "cannot make \"" + name + "\": " + why;
 }
 
+/// Not by ImageBuf itself: that remembers files by name, and a scene may have written the image anew.
 std::string read(const std::string& name, ImageBuf& image) {
-  image.reset(name);
-  if (image.read(0, 0, true, OIIO::TypeDesc::FLOAT)) return {};
-  return "cannot read \"" + name + "\": " + reason(image.geterror());
+  auto failed = [&](const std::string& why) { return "cannot read \"" + name + "\": " + reason(why); };
+  auto in = OIIO::ImageInput::open(name);
+  if (!in) return failed(OIIO::geterror());
+  OIIO::ImageSpec spec = in->spec();
+  spec.set_format(OIIO::TypeDesc::FLOAT);
+  spec.channelformats.clear();
+  spec.tile_width = spec.tile_height = spec.tile_depth = 0;
+  image.reset(spec);
+  if (in->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.localpixels())) return {};
+  return failed(in->geterror());
 }
 
 std::string make_plain(algo::MakeTextureMode mode, const std::string& name, const std::string& map,

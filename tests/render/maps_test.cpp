@@ -96,6 +96,14 @@ TEST_F(Maps, textures_have_levels_and_wraps) {
   EXPECT_NEAR(look_up(&TextureMaps::texture, path("a.tex"), {0.5f, 0.5f, 0}, 1).x, 0.5f, 0.05f);
 }
 
+TEST_F(Maps, an_image_may_be_written_anew) {
+  for (int size : {16, 64, 32}) {
+    std::string source = image("a.exr", size, size, ramp);
+    ASSERT_EQ(make_texture(source, path("a.tex"), {}), "");
+    EXPECT_EQ(OIIO::ImageInput::open(path("a.tex"))->spec().width, size);
+  }
+}
+
 /// The colour of a direction: exact where an environment map is a smooth function of it.
 Color of_direction(Vec3 d) {
   return Color(0.5f) + 0.5f * glm::normalize(d);
