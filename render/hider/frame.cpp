@@ -193,7 +193,8 @@ void FrameRenderer::make_buckets() {
 void FrameRenderer::render_bucket(Bucket& bucket, Worker& worker) {
   SampleBuffer samples(bucket.rect, sampling_);
   for (uint32_t t : bucket.tasks) {
-    if (tasks_[t].zmin <= samples.farthest())
+    if (tasks_[t].zmin <= samples.farthest() ||
+        !scene_.primitives[tasks_[t].primitive].attributes().cull_hidden)
       if (const ShadedGrid* grid = shaded(t, worker)) samples.draw(*grid);
     if (slots_[t].users.fetch_sub(1) == 1) slots_[t].grid.reset();
   }
@@ -249,7 +250,8 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
     outline = find_outline(grid, task.rect, camera_, std::sqrt(primitive.attributes().shading_rate));
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
   std::vector<float> times = motion_times(primitive);
-  if (times.empty() && primitive.attributes().sides == 1 && faces_away(grid, camera_)) return nullptr;
+  const Attributes& a = primitive.attributes();
+  if (times.empty() && a.sides == 1 && a.cull_backfacing && faces_away(grid, camera_)) return nullptr;
   std::vector<slvm::Grid> moved;
   for (size_t i = 1; i < times.size(); ++i) {
     Primitive there = primitive_at(primitive, times[i]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace render {
 
@@ -138,12 +139,15 @@ void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
   cells((low.x - x0) * xs, (high.x - x0) * xs, pattern_.width(), i0, i1);
   cells((low.y - y0) * ys, (high.y - y0) * ys, pattern_.height(), j0, j1);
   if (i0 >= i1 || j0 >= j1) return;
-  Quad quad(p[0], p[1], p[2], p[3]);
+  std::optional<Quad> quad; // most small micropolygons have no sample even in their box
   float weights[3];
   for (int j = j0; j < j1; ++j)
     for (int i = i0; i < i1; ++i) {
       size_t index = static_cast<size_t>(j) * static_cast<size_t>(pattern_.width()) + static_cast<size_t>(i);
-      Quad::Part part = quad.find(pattern_.at(index), weights);
+      Vec2 at = pattern_.at(index);
+      if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) continue;
+      if (!quad) quad.emplace(p[0], p[1], p[2], p[3]);
+      Quad::Part part = quad->find(at, weights);
       if (part == Quad::kOutside) continue;
       size_t second = part == Quad::kFirst ? k + 1 : k + nu + 1,
              third = part == Quad::kFirst ? k + nu + 1 : k + nu;

@@ -348,6 +348,20 @@ TEST(Frame, hidden_grids_are_not_shaded) {
   Rendered with_hidden = render_text(frame + "Translate 0 0 5 Sphere 1 -1 1 360 WorldEnd");
   EXPECT_GT(with_hidden.report.grids, alone.report.grids);
   EXPECT_EQ(with_hidden.report.shaded_grids, alone.report.shaded_grids);
+  // Unless baking needs them.
+  Rendered kept =
+      render_text(frame + "Translate 0 0 5 Attribute \"cull\" \"int hidden\" 0 Sphere 1 -1 1 360 WorldEnd");
+  EXPECT_EQ(kept.messages, "");
+  EXPECT_EQ(kept.report.shaded_grids, kept.report.grids);
+  EXPECT_EQ(kept.image.data, alone.image.data);
+}
+
+TEST(Frame, back_faces_are_shaded_for_baking) {
+  std::string frame = "Format 64 64 1 WorldBegin Translate 0 0 5 Sides 1 ";
+  EXPECT_EQ(render_text(frame + "Disk 0 1 360 WorldEnd").report.shaded_grids, 0u);
+  Rendered kept = render_text(frame + "Attribute \"cull\" \"int backfacing\" 0 Disk 0 1 360 WorldEnd");
+  EXPECT_EQ(kept.report.shaded_grids, kept.report.grids);
+  EXPECT_EQ(kept.covered(), 0);
 }
 
 } // namespace
