@@ -3,12 +3,17 @@
 
 #include "render/display/output.h"
 #include "render/hider/frame.h"
+#include "render/map_requests.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
+#include "render/statistics.h"
+#include "render/texture/depth_image.h"
+#include "render/texture/find_image.h"
 #include "render/texture/texture_maps.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <set>
 #include <tuple>
 
@@ -21,10 +26,12 @@ struct Renderer::Impl {
     interpreter.override_options = settings.override_options;
     interpreter.allow_programs = settings.allow_programs;
     interpreter.program_limits.seconds = settings.program_seconds;
+    interpreter.make_map = make_map;
   }
 
   void render(Scene& scene);
   void report_runtime_messages();
+  bool load_mask(const Options& options, DepthMask& mask);
   void flush() {
     if (settings.flush_messages) settings.flush_messages();
   }
@@ -36,6 +43,7 @@ struct Renderer::Impl {
   Interpreter interpreter;
   std::vector<std::string> written;
   /// Run-time messages already shown, by file, line, shader and text.
+  std::set<std::string> replaced; ///< names of textures whose replacements were reported
   std::set<std::tuple<std::string, uint32_t, std::string, std::string>> shown;
 };
 
@@ -44,9 +52,7 @@ namespace {
 TextureMaps::Settings texture_settings(const Options& options) {
   TextureMaps::Settings s;
   if (auto it = options.search_paths.find("texture"); it != options.search_paths.end())
-    for (const std::string& folder : it->second)
-      s.search_path += folder + ":";
-  s.search_path += ".";
+    s.folders = it->second;
   if (auto it = options.named.find("shadow:bias");
       it != options.named.end() && it->second.numbers.size() == 1)
     s.shadow_bias = it->second.numbers[0];
@@ -61,23 +67,73 @@ void Renderer::Impl::render(Scene& frame) {
   s.threads = settings.threads;
   s.aovs = display_aovs(frame.options, diagnostics);
   s.progress = settings.progress;
+  using Clock = std::chrono::steady_clock;
+  auto seconds_since = [](Clock::time_point from) {
+    return std::chrono::duration<double>(Clock::now() - from).count();
+  };
+  FrameStatistics statistics;
+  auto started = Clock::now();
   BoundShaders shaders(frame, machine, cache, diagnostics);
   flush();
   if (s.progress) s.progress(0);
   TextureMaps textures(texture_settings(frame.options));
   SceneServices services(frame, shaders, textures, settings.print);
   VmShading shading(machine, shaders, services);
-  FrameReport report;
+  DepthMask mask;
+  if (load_mask(frame.options, mask)) s.mask = &mask;
+  FrameReport& report = statistics.report;
+  statistics.bind_seconds = seconds_since(started);
+  started = Clock::now();
   Image image = render_frame(frame, shading, s, report);
+  statistics.render_seconds = seconds_since(started);
   report_runtime_messages();
+  for (const auto& [wanted, used] : textures.replaced())
+    if (replaced.insert(wanted).second)
+      diagnostics.warning({}, "texture",
+                          fmt::format("texture \"{}\" is missing: \"{}\" is used", wanted, used));
   if (report.bad_colours > 0)
     diagnostics.warning({}, "nan",
                         fmt::format("{} shading points have a colour that is not a finite number; "
                                     "they are drawn black",
                                     report.bad_colours));
+  started = Clock::now();
   for (std::string& name : write_displays(frame, image, s.aovs, diagnostics))
     written.push_back(std::move(name));
+  statistics.write_seconds = seconds_since(started);
+  if (settings.statistics) {
+    const Options& o = frame.options;
+    statistics.frame = o.frame;
+    if (auto it = o.named.find("statistics:endofframe"); it != o.named.end() && !it->second.numbers.empty())
+      statistics.asked_for = it->second.numbers[0] > 0;
+    statistics.width = image.rect.width();
+    statistics.height = image.rect.height();
+    statistics.samples_per_pixel = o.xsamples * o.ysamples;
+    statistics.threads = thread_count(s.threads);
+    auto [files, bytes] = textures.usage();
+    statistics.texture_files = files;
+    statistics.texture_bytes = bytes;
+    statistics.peak_bytes = peak_memory();
+    settings.statistics(statistics);
+  }
   flush();
+}
+
+/// The depth image of Hider "depthmask". False: there is none, or (reported) it cannot be had.
+bool Renderer::Impl::load_mask(const Options& options, DepthMask& mask) {
+  if (!options.depth_mask) return false;
+  const DepthMaskRequest& request = *options.depth_mask;
+  std::vector<std::string> folders;
+  if (auto it = options.search_paths.find("texture"); it != options.search_paths.end()) folders = it->second;
+  auto found = find_image(request.file, folders);
+  std::string problem = "no such file in the texture search path";
+  DepthImage image;
+  if (found) problem = read_depth_image(*found, image);
+  if (!problem.empty()) {
+    diagnostics.error(request.where, fmt::format("Hider: \"{}\": {}", request.file, problem));
+    return false;
+  }
+  mask = {image.width, image.height, std::move(image.depth), request.reverse, request.bias};
+  return true;
 }
 
 /// The machine's own "file:line: text (shader, n of m points)", each once.

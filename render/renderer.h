@@ -20,6 +20,8 @@
 
 namespace render {
 
+struct FrameStatistics; // render/statistics.h
+
 struct RendererSettings {
   int threads = 0; ///< 0: all processors
   /// Whether scenes may run the programs they name (Procedural "RunProgram"), and how long these may be
@@ -33,6 +35,8 @@ struct RendererSettings {
   std::function<void(double)> progress;
   /// Called before each frame is rendered and after it is written: a chance to show messages early.
   std::function<void()> flush_messages;
+  /// Called after each frame with what it cost.
+  std::function<void(const FrameStatistics&)> statistics;
   /// Output of printf in shaders.
   std::function<void(std::string_view)> print;
 };

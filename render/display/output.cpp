@@ -1,11 +1,10 @@
 // Output through OpenImageIO.
 #include "render/display/output.h"
 
+#include "render/display/channels.h"
 #include "render/display/quantize.h"
 #include "render/state/camera.h"
-#include "render/state/declaration.h"
 #include "render/state/transforms.h"
-#include "slvm/format/shadeop_info.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -24,58 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One channel of a file: where in a pixel it comes from.
-struct OutputChannel {
-  std::string name;
-  int source = 0;
-  enum class Group : uint8_t { kColor, kDepth, kAov } group = Group::kColor;
-};
-
-bool is_standard_mode(std::string_view mode) {
-  if (mode.empty()) return false;
-  if (mode.starts_with("rgb")) mode.remove_prefix(3);
-  if (mode.starts_with("a")) mode.remove_prefix(1);
-  if (mode.starts_with("z")) mode.remove_prefix(1);
-  return mode.empty();
-}
-
-/// A mode that names a variable: "varying color name", "color name", a name declared nowhere is a colour.
-slvm::Result<AovChannel> parse_aov(const std::string& mode) {
-  auto declared = Declarations().resolve(mode);
-  if (declared) {
-    if (declared->type == slvm::Type::kString || declared->type == slvm::Type::kMatrix ||
-        declared->elements > 0)
-      return slvm::Error{fmt::format("\"{}\" cannot be shown as an image", mode)};
-    return AovChannel{declared->name, slvm::components(declared->type), 0};
-  }
-  if (mode.find_first_of(" \t[,") != std::string::npos) return slvm::Error{declared.error()};
-  slvm::Global g = slvm::find_global(mode);
-  if (g == slvm::Global::kCount) return AovChannel{mode, 3, 0};
-  return AovChannel{mode, slvm::components(slvm::global_info(g).type), 0};
-}
-
-std::vector<OutputChannel> output_channels(const std::string& mode, const std::vector<AovChannel>& aovs) {
-  std::vector<OutputChannel> out;
-  using Group = OutputChannel::Group;
-  if (is_standard_mode(mode)) {
-    if (mode.find("rgb") != std::string::npos)
-      for (int c = 0; c < 3; ++c)
-        out.push_back({std::string(1, "RGB"[c]), Image::kCi + c, Group::kColor});
-    if (mode.find('a') != std::string::npos) out.push_back({"A", Image::kAlpha, Group::kColor});
-    if (mode.find('z') != std::string::npos) out.push_back({"Z", Image::kZ, Group::kDepth});
-    return out;
-  }
-  auto wanted = parse_aov(mode);
-  if (!wanted) return out;
-  for (const AovChannel& a : aovs)
-    if (a.name == wanted->name)
-      for (int c = 0; c < a.components; ++c) {
-        std::string name = a.components == 1 ? a.name : std::string(1, "RGB"[c]);
-        out.push_back({name, Image::kAov + a.first + c, Group::kAov});
-      }
-  return out;
-}
-
 struct Format {
   std::string plugin, extension;
 };
@@ -89,6 +36,7 @@ slvm::Result<Format> choose_format(const DisplayRequest& d) {
   if (t == "tiff" || t == "tif") return Format{"tiff", "tif"};
   if (t == "png") return Format{"png", "png"};
   if (t == "openexr" || t == "exr") return Format{"openexr", "exr"};
+  if (t == "zfile" || t == "shadow") return Format{"tiff", "z"};
   if (t == "file" || t == "framebuffer" || t == "it") {
     if (!extension.empty() && known(extension)) return Format{extension, extension};
     return Format{"tiff", "tif"};
@@ -104,8 +52,8 @@ slvm::Result<Format> choose_format(const DisplayRequest& d) {
 OIIO::TypeDesc pixel_type(const Quantization& q, const std::string& plugin) {
   bool integers_only = plugin == "png" || plugin == "jpeg" || plugin == "bmp" || plugin == "targa";
   bool floats_only = plugin == "openexr" || plugin == "hdr";
-  if (floats_only || (q.one == 0 && !integers_only)) return OIIO::TypeDesc::FLOAT;
-  if (q.one == 0) return OIIO::TypeDesc::UINT16;
+  if (floats_only || (q.is_float() && !integers_only)) return OIIO::TypeDesc::FLOAT;
+  if (q.is_float()) return OIIO::TypeDesc::UINT16;
   if (q.min >= 0 && q.max <= 255) return OIIO::TypeDesc::UINT8;
   if (q.min >= 0 && q.max <= 65535) return OIIO::TypeDesc::UINT16;
   return OIIO::TypeDesc::FLOAT;
@@ -120,10 +68,11 @@ public:
   slvm::Result<std::string> write(const DisplayRequest& d);
 
 private:
-  void fill_spec(OIIO::ImageSpec& spec, const std::vector<OutputChannel>& channels) const;
+  void fill_spec(OIIO::ImageSpec& spec, const std::vector<FileChannel>& channels) const;
+  float value(const FileChannel& channel, const DisplaySettings& settings, int x, int y) const;
   template <class T>
-  std::vector<std::byte> pack(const std::vector<OutputChannel>& channels, const Quantization& color,
-                              const Quantization& depth) const;
+  std::vector<std::byte> pack(const std::vector<FileChannel>& channels, const DisplaySettings& settings,
+                              const Quantization& color, const Quantization& depth) const;
 
   const Scene& scene_;
   const Options& options_;
@@ -131,11 +80,11 @@ private:
   const std::vector<AovChannel>& aovs_;
 };
 
-void Writer::fill_spec(OIIO::ImageSpec& spec, const std::vector<OutputChannel>& channels) const {
+void Writer::fill_spec(OIIO::ImageSpec& spec, const std::vector<FileChannel>& channels) const {
   spec.x = image_.rect.x0;
   spec.y = image_.rect.y0;
-  spec.full_width = options_.xres;
-  spec.full_height = options_.yres;
+  spec.full_width = options_.xres * (options_.subpixel ? options_.xsamples : 1);
+  spec.full_height = options_.yres * (options_.subpixel ? options_.ysamples : 1);
   spec.channelnames.clear();
   for (size_t i = 0; i < channels.size(); ++i) {
     spec.channelnames.push_back(channels[i].name);
@@ -153,21 +102,30 @@ void Writer::fill_spec(OIIO::ImageSpec& spec, const std::vector<OutputChannel>& 
   spec.attribute("worldtoscreen", OIIO::TypeMatrix, to_screen.m.data());
 }
 
+/// The frame's exposure is in the standard channels already; the others get theirs here.
+float Writer::value(const FileChannel& channel, const DisplaySettings& settings, int x, int y) const {
+  float v = image_.pixel(x, y)[channel.source];
+  bool color = channel.group == FileChannel::Group::kColor && channel.name != "A";
+  if (!color || channel.source < Image::kAov) return v;
+  auto [gain, gamma] = settings.exposure.value_or(std::array{options_.gain, options_.gamma});
+  return exposed(v, gain, gamma);
+}
+
 template <class T>
-std::vector<std::byte> Writer::pack(const std::vector<OutputChannel>& channels, const Quantization& color,
-                                    const Quantization& depth) const {
+std::vector<std::byte> Writer::pack(const std::vector<FileChannel>& channels, const DisplaySettings& settings,
+                                    const Quantization& color, const Quantization& depth) const {
   const PixelRect& r = image_.rect;
   std::vector<std::byte> out(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) *
                              channels.size() * sizeof(T));
   std::byte* at = out.data();
   for (int y = r.y0; y < r.y1; ++y)
     for (int x = r.x0; x < r.x1; ++x)
-      for (const OutputChannel& c : channels) {
-        float v = image_.pixel(x, y)[c.source];
-        const Quantization& q = c.group == OutputChannel::Group::kDepth ? depth : color;
+      for (const FileChannel& c : channels) {
+        float v = value(c, settings, x, y);
+        const Quantization& q = c.group == FileChannel::Group::kDepth ? depth : color;
         T value;
         if constexpr (std::is_same_v<T, float>)
-          value = q.one == 0 ? v : static_cast<T>(quantize(v, q, x, y, c.source));
+          value = q.is_float() ? v : static_cast<T>(quantize(v, q, x, y, c.source));
         else
           value = static_cast<T>(quantize(v, q, x, y, c.source));
         std::memcpy(at, &value, sizeof(T));
@@ -176,34 +134,43 @@ std::vector<std::byte> Writer::pack(const std::vector<OutputChannel>& channels, 
   return out;
 }
 
+/// Empty: display_aovs() has reported that there is nothing to write.
 slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
-  std::vector<OutputChannel> channels = output_channels(d.mode, aovs_);
-  if (channels.empty()) return slvm::Error{fmt::format("unknown mode \"{}\"", d.mode)};
+  std::vector<FileChannel> channels = file_channels(options_, d, aovs_);
+  if (channels.empty()) return std::string();
+  auto settings = display_settings(d);
   auto format = choose_format(d);
   if (!format) return slvm::Error{format.error()};
   std::string name = d.name;
   if (fs::path(name).extension().empty()) name += "." + format->extension;
 
   // Variables of shaders are floats unless the display says otherwise.
-  bool is_depth = channels[0].group == OutputChannel::Group::kDepth;
-  Quantization color = channels[0].group == OutputChannel::Group::kAov ? options_.z : options_.rgba;
-  OIIO::TypeDesc type = pixel_type(is_depth ? options_.z : color, format->plugin);
+  bool is_depth = channels[0].group == FileChannel::Group::kDepth;
+  Quantization color = channels[0].group == FileChannel::Group::kVariable ? options_.z : options_.rgba;
   Quantization depth = options_.z;
+  for (Quantization* q : {&color, &depth}) {
+    if (settings->quantize) *q = *settings->quantize;
+    if (settings->dither) q->dither = *settings->dither;
+  }
+  OIIO::TypeDesc type = pixel_type(is_depth ? depth : color, format->plugin);
   if (type == OIIO::TypeDesc::FLOAT && !color.set) color.one = 0;
-  if (type == OIIO::TypeDesc::UINT16 && color.one == 0) color = {65535, 0, 65535, 0.5f, true};
-  if (type != OIIO::TypeDesc::FLOAT && depth.one == 0) depth = color;
+  if (type == OIIO::TypeDesc::UINT16 && color.is_float()) color = {65535, 0, 65535, color.dither, true, 0};
+  if (type != OIIO::TypeDesc::FLOAT && depth.is_float()) depth = color;
 
   OIIO::ImageSpec spec(image_.rect.width(), image_.rect.height(), static_cast<int>(channels.size()), type);
   fill_spec(spec, channels);
+  // Rendered noise hardly gets smaller by trying harder.
+  spec.attribute("tiff:zipquality", 2);
+  spec.attribute("png:compressionLevel", 2);
   if (auto it = d.params.find("compression"); it != d.params.end() && !it->second.strings.empty())
     spec.attribute("compression", it->second.strings[0]);
   std::vector<std::byte> pixels;
   if (type == OIIO::TypeDesc::UINT8)
-    pixels = pack<uint8_t>(channels, color, depth);
+    pixels = pack<uint8_t>(channels, *settings, color, depth);
   else if (type == OIIO::TypeDesc::UINT16)
-    pixels = pack<uint16_t>(channels, color, depth);
+    pixels = pack<uint16_t>(channels, *settings, color, depth);
   else
-    pixels = pack<float>(channels, color, depth);
+    pixels = pack<float>(channels, *settings, color, depth);
 
   auto out = OIIO::ImageOutput::create(format->plugin);
   if (!out) return slvm::Error{OIIO::geterror()};
@@ -224,26 +191,6 @@ slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
 
 } // namespace
 
-std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& diagnostics) {
-  std::vector<AovChannel> out;
-  int floats = 0;
-  for (const DisplayRequest& d : options.displays) {
-    if (is_standard_mode(d.mode) || d.type == "null") continue;
-    auto aov = parse_aov(d.mode);
-    if (!aov) {
-      diagnostics.error(d.where, "Display: " + aov.error());
-      continue;
-    }
-    bool known =
-        std::any_of(out.begin(), out.end(), [&](const AovChannel& a) { return a.name == aov->name; });
-    if (known) continue;
-    aov->first = floats;
-    floats += aov->components;
-    out.push_back(*aov);
-  }
-  return out;
-}
-
 std::vector<std::string> write_displays(const Scene& scene, const Image& image,
                                         const std::vector<AovChannel>& aovs, slvm::Diagnostics& diagnostics) {
   std::vector<std::string> written;
@@ -252,9 +199,9 @@ std::vector<std::string> write_displays(const Scene& scene, const Image& image,
   for (const DisplayRequest& d : scene.options.displays) {
     if (d.type == "null") continue;
     auto name = writer.write(d);
-    if (name)
+    if (name && !name->empty())
       written.push_back(*name);
-    else
+    else if (!name)
       diagnostics.error(d.where, "Display: " + name.error());
   }
   return written;

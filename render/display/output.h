@@ -2,6 +2,7 @@
 // written under a temporary name and renamed when complete.
 #pragma once
 
+#include "render/display/channels.h"
 #include "render/hider/image.h"
 #include "render/state/scene.h"
 #include "slvm/support/diagnostics.h"
@@ -10,10 +11,6 @@
 #include <vector>
 
 namespace render {
-
-/// The shader variables the displays ask for, each once, with their places among the AOV floats of a pixel.
-/// Modes that cannot be understood are reported.
-std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& diagnostics);
 
 /// Writes all displays. Errors go to `diagnostics` at the Display request's position. Returns the names of
 /// the files written.

@@ -7,8 +7,8 @@
 
 namespace render {
 
-/// round(one * value + dither * r) limited to [min, max]; r in [-1, 1) is a function of pixel and channel.
-/// `one` must not be 0 (that means: no quantisation).
+/// round(zero + (one - zero) * value + dither * r) limited to [min, max]; r in [-1, 1) is a function of pixel
+/// and channel. Not for q.is_float().
 int quantize(float value, const Quantization& q, int x, int y, int channel);
 
 } // namespace render

@@ -10,6 +10,7 @@
 #include "render/hider/random.h"
 #include "render/hider/sample_buffer.h"
 #include "render/prims/dice.h"
+#include "render/prims/motion.h"
 #include "render/prims/split.h"
 
 #include <tbb/global_control.h>
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -44,11 +46,15 @@ public:
   FrameRenderer(const Scene& scene, Shading& shading, const FrameSettings& settings)
       : scene_(scene), options_(scene.options), shading_(shading), settings_(settings),
         camera_(scene.options) {
-    for (const AovChannel& c : settings.aovs)
-      aov_floats_ += c.components;
-    sampling_ = SamplingSettings::from(options_, aov_floats_);
-    threads_ = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
-    image_ = Image(camera_.crop(), aov_floats_);
+    sampling_ = SamplingSettings::from(options_, settings.aovs);
+    sampling_.moving = std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) {
+      return !p.state->motion.empty() || !p.deformation.empty();
+    });
+    if (camera_.has_lens()) sampling_.lens = &camera_;
+    sampling_.mask = settings.mask;
+    sampling_.mask_scale = {1 / static_cast<float>(options_.xres), 1 / static_cast<float>(options_.yres)};
+    threads_ = thread_count(settings.threads);
+    image_ = Image(image_rect(camera_.crop()), static_cast<int>(sampling_.aov_floats()));
   }
 
   Image run(FrameReport& report);
@@ -57,7 +63,7 @@ private:
   struct Worker {
     std::unique_ptr<GridShader> shader;
     slvm::Grid grid{2, 2};
-    size_t shaded_grids = 0, shaded_points = 0, bad_colours = 0;
+    FrameReport report;
   };
 
   void split_all();
@@ -65,8 +71,15 @@ private:
   void render_bucket(Bucket& bucket, Worker& worker);
   const ShadedGrid* shaded(uint32_t task, Worker& worker);
   std::unique_ptr<const ShadedGrid> shade(uint32_t task, Worker& worker);
+  /// Pixels of the frame to pixels of the image, which are samples when "subpixel" is asked for.
+  PixelRect image_rect(const PixelRect& r) const {
+    int x = options_.subpixel ? options_.xsamples : 1, y = options_.subpixel ? options_.ysamples : 1;
+    return {r.x0 * x, r.y0 * y, r.x1 * x, r.y1 * y};
+  }
   void expose(const PixelRect& rect);
   void run_imager(const PixelRect& rect, Worker& worker);
+  static void count(const Primitive& primitive, const slvm::Grid& grid,
+                    std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
 
   const Scene& scene_;
@@ -75,7 +88,6 @@ private:
   const FrameSettings& settings_;
   Camera camera_;
   SamplingSettings sampling_;
-  int aov_floats_ = 0;
   int threads_;
   Image image_;
   std::vector<GridTask> tasks_;
@@ -107,9 +119,16 @@ Image FrameRenderer::run(FrameReport& report) {
   });
   report.grids += tasks_.size();
   for (const Worker& w : workers) {
-    report.shaded_grids += w.shaded_grids;
-    report.shaded_points += w.shaded_points;
-    report.bad_colours += w.bad_colours;
+    report.shaded_grids += w.report.shaded_grids;
+    report.shaded_points += w.report.shaded_points;
+    report.micropolygons += w.report.micropolygons;
+    report.bad_colours += w.report.bad_colours;
+    for (const auto& [name, cost] : w.report.shaders) {
+      ShaderCost& sum = report.shaders[name];
+      sum.seconds += cost.seconds;
+      sum.grids += cost.grids;
+      sum.points += cost.points;
+    }
   }
   return std::move(image_);
 }
@@ -118,7 +137,8 @@ void FrameRenderer::split_all() {
   SplitSettings s;
   s.camera = &camera_;
   PixelRect crop = camera_.crop();
-  auto mx = static_cast<float>(sampling_.xmargin()), my = static_cast<float>(sampling_.ymargin());
+  auto mx = static_cast<float>(sampling_.reconstruction.xmargin()),
+       my = static_cast<float>(sampling_.reconstruction.ymargin());
   s.raster_min = {static_cast<float>(crop.x0) - mx, static_cast<float>(crop.y0) - my};
   s.raster_max = {static_cast<float>(crop.x1) + mx, static_cast<float>(crop.y1) + my};
   s.grid_size = options_.grid_size;
@@ -151,7 +171,7 @@ void FrameRenderer::make_buckets() {
     float cell = std::floor((x + static_cast<float>(side * margin - origin)) / static_cast<float>(size));
     return static_cast<int>(std::clamp(cell, 0.0f, static_cast<float>(count - 1)));
   };
-  int mx = sampling_.xmargin(), my = sampling_.ymargin();
+  int mx = sampling_.reconstruction.xmargin(), my = sampling_.reconstruction.ymargin();
   for (uint32_t t = 0; t < tasks_.size(); ++t) {
     const GridTask& task = tasks_[t];
     int i0 = index(task.raster_min.x, mx, crop.x0, bw, columns, -1);
@@ -173,14 +193,16 @@ void FrameRenderer::make_buckets() {
 void FrameRenderer::render_bucket(Bucket& bucket, Worker& worker) {
   SampleBuffer samples(bucket.rect, sampling_);
   for (uint32_t t : bucket.tasks) {
-    if (tasks_[t].zmin <= samples.farthest())
+    if (tasks_[t].zmin <= samples.farthest() ||
+        !scene_.primitives[tasks_[t].primitive].attributes().cull_hidden)
       if (const ShadedGrid* grid = shaded(t, worker)) samples.draw(*grid);
     if (slots_[t].users.fetch_sub(1) == 1) slots_[t].grid.reset();
   }
   bucket.tasks = {};
   samples.finish(image_);
-  expose(bucket.rect);
-  if (options_.imager) run_imager(bucket.rect, worker);
+  PixelRect rect = image_rect(bucket.rect);
+  expose(rect);
+  if (options_.imager) run_imager(rect, worker);
 }
 
 /// The task's grid, shaded now if no other bucket has done it. Another thread at it is waited for: it needs
@@ -201,6 +223,19 @@ const ShadedGrid* FrameRenderer::shaded(uint32_t task, Worker& worker) {
   return slot.grid.get();
 }
 
+void FrameRenderer::count(const Primitive& primitive, const slvm::Grid& grid,
+                          std::chrono::steady_clock::time_point started, FrameReport& report) {
+  std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
+  const auto& surface = primitive.attributes().surface;
+  ShaderCost& cost = report.shaders[surface ? surface->name : "none"];
+  cost.seconds += seconds.count();
+  ++cost.grids;
+  cost.points += grid.points();
+  ++report.shaded_grids;
+  report.shaded_points += grid.points();
+  report.micropolygons += static_cast<size_t>(grid.nu() - 1) * static_cast<size_t>(grid.nv() - 1);
+}
+
 /// Null when nothing of the grid can be seen.
 std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& worker) {
   const GridTask& task = tasks_[index];
@@ -209,30 +244,39 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
                       options_.shutter_close - options_.shutter_open};
   slvm::Grid& grid = worker.grid;
   dice(primitive, task, index, context, grid);
+  auto started = std::chrono::steady_clock::now();
   std::optional<GridOutline> outline;
   if (!primitive.geometry->ruled())
     outline = find_outline(grid, task.rect, camera_, std::sqrt(primitive.attributes().shading_rate));
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
-  if (primitive.attributes().sides == 1 && faces_away(grid, camera_)) return nullptr;
+  std::vector<float> times = motion_times(primitive);
+  const Attributes& a = primitive.attributes();
+  if (times.empty() && a.sides == 1 && a.cull_backfacing && faces_away(grid, camera_)) return nullptr;
+  std::vector<slvm::Grid> moved;
+  for (size_t i = 1; i < times.size(); ++i) {
+    Primitive there = primitive_at(primitive, times[i]);
+    slvm::Grid& later = moved.emplace_back(2, 2);
+    dice(there, task, index, context, later);
+    worker.shader->displace(there, later);
+  }
+  if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);
   worker.shader->shade(primitive, grid);
-  ++worker.shaded_grids;
-  worker.shaded_points += grid.points();
+  count(primitive, grid, started, worker.report);
   auto out = std::make_unique<ShadedGrid>(make_shaded_grid(
       primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
-  worker.bad_colours += out->bad_colours;
+  for (size_t i = 0; i < moved.size(); ++i)
+    add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
+  worker.report.bad_colours += out->bad_colours;
   return out;
 }
 
-/// c' = (gain c)^(1/gamma), negative lobes of the filter kept (RISpec 3.2, 4.2.2).
 void FrameRenderer::expose(const PixelRect& rect) {
   if (options_.gain == 1 && options_.gamma == 1) return;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
       float* p = image_.pixel(x, y);
-      for (int c = 0; c < 3; ++c) {
-        float v = options_.gain * p[Image::kCi + c];
-        p[Image::kCi + c] = std::copysign(std::pow(std::abs(v), 1 / options_.gamma), v);
-      }
+      for (int c = 0; c < 3; ++c)
+        p[Image::kCi + c] = exposed(p[Image::kCi + c], options_.gain, options_.gamma);
     }
 }
 
@@ -285,6 +329,10 @@ void FrameRenderer::report_progress() {
 }
 
 } // namespace
+
+int thread_count(int threads) {
+  return threads > 0 ? threads : tbb::this_task_arena::max_concurrency();
+}
 
 Image render_frame(const Scene& scene, Shading& shading, const FrameSettings& settings, FrameReport& report) {
   return FrameRenderer(scene, shading, settings).run(report);

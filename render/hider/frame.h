@@ -2,12 +2,15 @@
 // returns the finished pixels. Read after prims/split.h, prims/dice.h, hider/sample_buffer.h.
 #pragma once
 
+#include "render/hider/depth_mask.h"
 #include "render/hider/image.h"
 #include "render/shading/grid_shader.h"
 #include "render/state/scene.h"
 
 #include <functional>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace render {
@@ -15,15 +18,26 @@ namespace render {
 struct FrameSettings {
   int threads = 0; ///< 0: all processors
   std::vector<AovChannel> aovs;
+  const DepthMask* mask = nullptr; ///< of Hider "depthmask"
   /// Called with the finished fraction, from any thread but never from two at once.
   std::function<void(double)> progress;
 };
 
+/// What the grids of one surface shader cost, displacement and lights included, on all threads together.
+struct ShaderCost {
+  double seconds = 0;
+  size_t grids = 0, points = 0;
+};
+
 /// What a user should be told about a frame.
 struct FrameReport {
-  size_t primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0;
-  size_t bad_colours = 0; ///< shading points whose colour was not a finite number
+  size_t primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0, micropolygons = 0;
+  std::map<std::string, ShaderCost> shaders; ///< by name of the surface shader
+  size_t bad_colours = 0;                    ///< shading points whose colour was not a finite number
 };
+
+/// The threads that FrameSettings::threads stands for.
+int thread_count(int threads);
 
 /// The same pixels, to the last bit, for any number of threads.
 Image render_frame(const Scene& scene, Shading& shading, const FrameSettings& settings, FrameReport& report);

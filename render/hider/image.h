@@ -2,18 +2,32 @@
 #pragma once
 
 #include "render/state/camera.h"
+#include "render/state/options.h"
 
+#include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace render {
 
-/// A shader variable that a Display asks for.
+/// (gain c)^(1/gamma), negative lobes of the filter kept (RISpec 3.2, 4.2.2).
+inline float exposed(float c, float gain, float gamma) {
+  float v = gain * c;
+  return gamma == 1 ? v : std::copysign(std::pow(std::abs(v), 1 / gamma), v);
+}
+
+/// What a Display asks for besides the standard channels: a shader variable, seen on the nearest surface, or
+/// the composited picture once more, with a filter of its own.
 struct AovChannel {
+  enum class Source : uint8_t { kVariable, kColor, kOpacity, kAlpha, kDepth };
+
   std::string name;
   int components = 3;
   int first = 0; ///< its first float among the AOV floats of a pixel
+  Source source = Source::kVariable;
+  std::optional<PixelFilter> filter; ///< none: the frame's
 };
 
 /// Channels of a pixel in order: Ci (3), Oi (3), alpha, z, then the AOVs.

@@ -23,6 +23,14 @@ constexpr float lower_unit(uint64_t h) {
   return static_cast<float>(h & 0xffffffu) * 0x1p-24f;
 }
 
-enum RandomPurpose : uint64_t { kJitter = 1, kDither = 2, kImager = 3 };
+enum RandomPurpose : uint64_t {
+  kJitter = 1,
+  kDither = 2,
+  kImager = 3,
+  kStrata = 4,
+  kTime = 5,
+  kLens = 6,
+  kLensCells = 7
+};
 
 } // namespace render

@@ -1,19 +1,13 @@
-// Sampling of micropolygons, compositing, filtering.
+// Sampling of micropolygons, and compositing.
 #include "render/hider/sample_buffer.h"
-
-#include "render/hider/filter.h"
-#include "render/hider/random.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace render {
 
 namespace {
-
-int margin(float width) {
-  return std::max(0, static_cast<int>(std::ceil(width / 2 - 0.5f)));
-}
 
 /// Twice the signed area of a, b, p, computed the same way for b, a, p, so that of two triangles that share
 /// an edge exactly one contains a sample on or near it.
@@ -29,21 +23,34 @@ struct Edge {
   bool left(float value) const { return (value >= 0) != swapped; }
 };
 
-struct Triangle {
-  Edge ab, bc, ca;
-  Triangle(Vec2 a, Vec2 b, Vec2 c) : ab(a, b), bc(b, c), ca(c, a) {}
-  /// Barycentric weights of a, b, c when p is inside.
-  bool contains(Vec2 p, float (&weights)[3]) const {
-    float e[3] = {bc.value(p), ca.value(p), ab.value(p)};
-    bool l0 = bc.left(e[0]), l1 = ca.left(e[1]), l2 = ab.left(e[2]);
-    if (l0 != l1 || l1 != l2) return false;
-    float sum = 0;
-    for (float& x : e)
-      sum += x = std::abs(x);
-    if (!(sum > 0)) return false;
-    for (int i = 0; i < 3; ++i)
-      weights[i] = e[i] / sum;
-    return true;
+/// A micropolygon as two triangles with the side a-d in common: a, b, d and a, d, c.
+struct Quad {
+  Edge ab, bd, da, dc, ca;
+  Quad(Vec2 a, Vec2 b, Vec2 c, Vec2 d) : ab(a, b), bd(b, d), da(d, a), dc(d, c), ca(c, a) {}
+  enum Part { kOutside, kFirst, kSecond };
+  /// The triangle p is in, and its barycentric weights there, in the order above. Of a folded micropolygon
+  /// that covers p twice only the first triangle counts.
+  Part find(Vec2 p, float (&weights)[3]) const {
+    float diagonal = da.value(p);
+    bool side = da.left(diagonal);
+    if (float e = ab.value(p); ab.left(e) == side)
+      if (float f = bd.value(p); bd.left(f) == side) return weigh(f, diagonal, e, kFirst, weights);
+    if (float e = dc.value(p); dc.left(e) != side)
+      if (float f = ca.value(p); ca.left(f) != side) return weigh(e, f, diagonal, kSecond, weights);
+    return kOutside;
+  }
+
+private:
+  static Part weigh(float a, float b, float c, Part part, float (&weights)[3]) {
+    a = std::abs(a);
+    b = std::abs(b);
+    c = std::abs(c);
+    float sum = a + b + c;
+    if (!(sum > 0)) return kOutside;
+    weights[0] = a / sum;
+    weights[1] = b / sum;
+    weights[2] = c / sum;
+    return part;
   }
 };
 
@@ -58,106 +65,185 @@ template <class T> T blend(T a, T b, T c, const float (&w)[3]) {
 
 } // namespace
 
-SamplingSettings SamplingSettings::from(const Options& o, int aov_floats) {
-  return {o.xsamples,          o.ysamples,   o.jitter,    o.filter,
-          o.opacity_threshold, o.near_plane, o.far_plane, aov_floats};
+SamplingSettings SamplingSettings::from(const Options& o, const std::vector<AovChannel>& aovs) {
+  SamplingSettings s;
+  s.size = {o.xsamples, o.ysamples, o.jitter};
+  s.reconstruction = {o.filter, o.depth_filter, o.subpixel, aovs};
+  s.opacity_threshold = o.opacity_threshold;
+  s.depth_threshold = o.depth_threshold;
+  s.near_plane = o.near_plane;
+  s.far_plane = o.far_plane;
+  return s;
 }
 
-int SamplingSettings::xmargin() const {
-  return margin(filter.xwidth);
+namespace {
+
+PixelRect with_margins(const PixelRect& r, const ReconstructionSettings& s) {
+  int mx = s.xmargin(), my = s.ymargin();
+  return {r.x0 - mx, r.y0 - my, r.x1 + mx, r.y1 + my};
 }
-int SamplingSettings::ymargin() const {
-  return margin(filter.ywidth);
-}
+
+} // namespace
 
 SampleBuffer::SampleBuffer(PixelRect rect, const SamplingSettings& settings)
-    : settings_(settings), rect_(rect) {
-  int mx = settings.xmargin(), my = settings.ymargin();
-  covered_ = {rect.x0 - mx, rect.y0 - my, rect.x1 + mx, rect.y1 + my};
-  width_ = covered_.width() * settings.xsamples;
-  height_ = covered_.height() * settings.ysamples;
-  samples_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_));
-  sample_aov_.resize(samples_.size() * static_cast<size_t>(settings.aov_floats));
-  open_ = samples_.size();
-  auto xs = static_cast<float>(settings.xsamples), ys = static_cast<float>(settings.ysamples);
-  size_t k = 0;
-  for (int j = 0; j < height_; ++j)
-    for (int i = 0; i < width_; ++i, ++k) {
-      // The cell's place in the frame, not in the bucket, decides where the sample lies.
-      int x = covered_.x0 * settings.xsamples + i, y = covered_.y0 * settings.ysamples + j;
-      uint64_t h = hash_of(x, y, kJitter);
-      float dx = settings.jitter ? upper_unit(h) : 0.5f, dy = settings.jitter ? lower_unit(h) : 0.5f;
-      samples_[k].at = {(static_cast<float>(x) + dx) / xs, (static_cast<float>(y) + dy) / ys};
-    }
+    : settings_(settings), rect_(rect), covered_(with_margins(rect, settings.reconstruction)),
+      pattern_(covered_, settings.size, settings.moving || settings.lens), samples_(pattern_.count()),
+      aovs_(settings.aov_floats()), sample_aov_(samples_.size() * aovs_), open_(samples_.size()),
+      midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {
+  if (!settings_.lens) return;
+  for (size_t i = 0; i < samples_.size(); ++i)
+    lens_.push_back(settings_.lens->lens_to_raster(pattern_.lens(i)));
+  for (int s = 0; s < pattern_.strata(); ++s) {
+    auto [low, high] = pattern_.lens_box(s);
+    Box& box = lens_boxes_.emplace_back();
+    for (float x : {low.x, high.x})
+      for (float y : {low.y, high.y})
+        box.add(Vec3(settings_.lens->lens_to_raster({x, y}), 0));
+  }
 }
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
   auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
+  bool moving = settings_.lens || !grid.times.empty();
   for (size_t j = 0, m = 0; j + 1 < nv; ++j)
-    for (size_t i = 0; i + 1 < nu; ++i, ++m)
-      if (!grid.hidden[m]) draw_micropolygon(grid, j * nu + i);
-}
-
-void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
-  auto nu = static_cast<size_t>(grid.nu);
-  size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
-  Vec2 p[4];
-  Vec2 low(kInfinity), high(-kInfinity);
-  for (int i = 0; i < 4; ++i) {
-    p[i] = Vec2(grid.position[corner[i]]);
-    low = glm::min(low, p[i]);
-    high = glm::max(high, p[i]);
-  }
-  auto xs = static_cast<float>(settings_.xsamples), ys = static_cast<float>(settings_.ysamples);
-  auto x0 = static_cast<float>(covered_.x0), y0 = static_cast<float>(covered_.y0);
-  auto cells = [](float from, float to, int size, int& begin, int& end) {
-    begin = static_cast<int>(std::clamp(std::floor(from), 0.0f, static_cast<float>(size)));
-    end = static_cast<int>(std::clamp(std::floor(to) + 1, 0.0f, static_cast<float>(size)));
-  };
-  int i0, i1, j0, j1;
-  cells((low.x - x0) * xs, (high.x - x0) * xs, width_, i0, i1);
-  cells((low.y - y0) * ys, (high.y - y0) * ys, height_, j0, j1);
-  if (i0 >= i1 || j0 >= j1) return;
-  Triangle first(p[0], p[1], p[3]), second(p[0], p[3], p[2]);
-  float weights[3];
-  for (int j = j0; j < j1; ++j)
-    for (int i = i0; i < i1; ++i) {
-      size_t index = static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i);
-      Sample& s = samples_[index];
-      if (first.contains(s.at, weights)) hit(grid, s, index, {corner[0], corner[1], corner[3]}, weights);
-      // A folded micropolygon may cover a sample twice; it counts once.
-      else if (second.contains(s.at, weights))
-        hit(grid, s, index, {corner[0], corner[3], corner[2]}, weights);
+    for (size_t i = 0; i + 1 < nu; ++i, ++m) {
+      if (grid.hidden[m]) continue;
+      if (moving)
+        draw_moving(grid, j * nu + i);
+      else
+        draw_micropolygon(grid, j * nu + i);
     }
 }
 
-void SampleBuffer::hit(const ShadedGrid& grid, Sample& sample, size_t index, const size_t (&corners)[3],
-                       const float (&weights)[3]) {
-  const auto& p = grid.position;
-  float z = blend(p[corners[0]].z, p[corners[1]].z, p[corners[2]].z, weights);
-  if (z >= sample.z || z < settings_.near_plane || z > settings_.far_plane) return;
+namespace {
+
+/// The whole numbers from `from` to `to`, both included, that are below `size`.
+void cells(float from, float to, int size, int& begin, int& end) {
+  // What is clamped at 0 is cut off like floor().
+  auto limit = static_cast<float>(size);
+  begin = static_cast<int>(std::clamp(from, 0.0f, limit));
+  end = to < 0 ? 0 : static_cast<int>(std::min(to + 1, limit));
+}
+
+} // namespace
+
+void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
+  auto nu = static_cast<size_t>(grid.nu);
+  const auto& position = grid.position;
+  Vec2 p[4] = {Vec2(position[k]), Vec2(position[k + 1]), Vec2(position[k + nu]), Vec2(position[k + nu + 1])};
+  Vec2 low = glm::min(glm::min(p[0], p[1]), glm::min(p[2], p[3]));
+  Vec2 high = glm::max(glm::max(p[0], p[1]), glm::max(p[2], p[3]));
+  auto xs = static_cast<float>(settings_.size.xsamples), ys = static_cast<float>(settings_.size.ysamples);
+  auto x0 = static_cast<float>(covered_.x0), y0 = static_cast<float>(covered_.y0);
+  int i0, i1, j0, j1;
+  cells((low.x - x0) * xs, (high.x - x0) * xs, pattern_.width(), i0, i1);
+  cells((low.y - y0) * ys, (high.y - y0) * ys, pattern_.height(), j0, j1);
+  if (i0 >= i1 || j0 >= j1) return;
+  std::optional<Quad> quad; // most small micropolygons have no sample even in their box
+  float weights[3];
+  for (int j = j0; j < j1; ++j)
+    for (int i = i0; i < i1; ++i) {
+      size_t index = static_cast<size_t>(j) * static_cast<size_t>(pattern_.width()) + static_cast<size_t>(i);
+      Vec2 at = pattern_.at(index);
+      if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) continue;
+      if (!quad) quad.emplace(p[0], p[1], p[2], p[3]);
+      Quad::Part part = quad->find(at, weights);
+      if (part == Quad::kOutside) continue;
+      size_t second = part == Quad::kFirst ? k + 1 : k + nu + 1,
+             third = part == Quad::kFirst ? k + nu + 1 : k + nu;
+      hit(grid, index, {k, second, third}, weights,
+          blend(position[k].z, position[second].z, position[third].z, weights));
+    }
+}
+
+/// For each stratum of time and lens only the pixels are looked at that the micropolygon reaches in it, and
+/// there the one sample that belongs to the stratum.
+void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
+  auto nu = static_cast<size_t>(grid.nu);
+  const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
+  const Camera* lens = settings_.lens;
+  constexpr float kSlack = 1e-3f;
+  auto n = static_cast<float>(pattern_.strata());
+  bool still = grid.times.empty();
+  Vec3 now[4], next[4];
+  for (size_t c = 0; c < 4; ++c)
+    now[c] = next[c] = grid.position[corner[c]];
+  for (int s = 0; s < pattern_.strata(); ++s) {
+    float from = static_cast<float>(s) / n, to = static_cast<float>(s + 1) / n;
+    Box box;
+    for (size_t c = 0; c < 4; ++c) {
+      box.add(now[c]);
+      if (still) continue;
+      box.add(next[c] = grid.at(corner[c], to));
+      now[c] = next[c];
+      for (size_t t = 0; t < grid.times.size(); ++t)
+        if (grid.times[t] > from && grid.times[t] < to) box.add(grid.position[t * grid.points() + corner[c]]);
+    }
+    if (lens) {
+      const Box& shift = lens_boxes_[static_cast<size_t>(s)];
+      float a = lens->defocus(box.min.z), b = lens->defocus(box.max.z);
+      box.min += glm::min(glm::min(shift.min * a, shift.max * a), glm::min(shift.min * b, shift.max * b));
+      box.max += glm::max(glm::max(shift.min * a, shift.max * a), glm::max(shift.min * b, shift.max * b));
+    }
+    int i0, i1, j0, j1;
+    cells(box.min.x - kSlack - static_cast<float>(covered_.x0),
+          box.max.x + kSlack - static_cast<float>(covered_.x0), covered_.width(), i0, i1);
+    cells(box.min.y - kSlack - static_cast<float>(covered_.y0),
+          box.max.y + kSlack - static_cast<float>(covered_.y0), covered_.height(), j0, j1);
+    for (int j = j0; j < j1; ++j)
+      for (int i = i0; i < i1; ++i) {
+        size_t index = pattern_.of_stratum(i, j, s);
+        Vec3 p[4];
+        for (size_t c = 0; c < 4; ++c) {
+          p[c] = still ? now[c] : grid.at(corner[c], pattern_.time(index));
+          if (lens) p[c] += Vec3(lens_[index] * lens->defocus(p[c].z), 0);
+        }
+        float weights[3];
+        Quad::Part part =
+            Quad(Vec2(p[0]), Vec2(p[1]), Vec2(p[2]), Vec2(p[3])).find(pattern_.at(index), weights);
+        if (part == Quad::kOutside) continue;
+        size_t second = part == Quad::kFirst ? 1 : 3, third = part == Quad::kFirst ? 3 : 2;
+        hit(grid, index, {corner[0], corner[second], corner[third]}, weights,
+            blend(p[0].z, p[second].z, p[third].z, weights));
+      }
+  }
+}
+
+bool SampleBuffer::masked(size_t index, float z) const {
+  if (!settings_.mask) return false;
+  return settings_.mask->hides(pattern_.at(index) * settings_.mask_scale, z);
+}
+
+void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3],
+                       const float (&weights)[3], float z) {
+  Sample& sample = samples_[index];
+  if (z >= (midpoint_ ? sample.second : sample.z) || z < settings_.near_plane || z > settings_.far_plane)
+    return;
+  if (masked(index, z)) return;
   // corners[0] is the micropolygon's own corner, whose colour it has throughout without smooth shading.
   Color Ci = grid.Ci[corners[0]], Oi = grid.Oi[corners[0]];
   if (grid.smooth) {
     Ci = blend(Ci, grid.Ci[corners[1]], grid.Ci[corners[2]], weights);
     Oi = blend(Oi, grid.Oi[corners[1]], grid.Oi[corners[2]], weights);
   }
-  auto aovs = static_cast<size_t>(settings_.aov_floats);
-  const float* aov = grid.aov.data() + corners[0] * aovs;
+  const float* aov = grid.aov.data() + corners[0] * aovs_;
   if (reaches(Oi, settings_.opacity_threshold)) {
-    if (sample.z == kInfinity) --open_;
+    farthest_known_ = false;
+    bool was_open = (midpoint_ ? sample.second : sample.z) == kInfinity;
+    sample.second = std::min(sample.second, std::max(z, sample.z));
+    if (was_open && (midpoint_ ? sample.second : z) < kInfinity) --open_;
+    if (z >= sample.z) return;
     sample.z = z;
     sample.Ci = Ci;
     sample.Oi = Oi;
     sample.matte = grid.matte;
-    std::copy_n(aov, aovs, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs));
-    farthest_known_ = false;
+    std::copy_n(aov, aovs_, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_));
     return;
   }
-  if (Ci == Color(0.0f) && Oi == Color(0.0f)) return; // not there at all
+  if (z >= sample.z || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
   auto order = static_cast<uint32_t>(fragments_.size());
   fragments_.push_back({Ci, Oi, z, sample.fragments, order, grid.matte});
-  fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs);
+  fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs_);
   sample.fragments = order;
 }
 
@@ -166,14 +252,15 @@ float SampleBuffer::farthest() const {
   if (!farthest_known_) {
     farthest_ = 0;
     for (const Sample& s : samples_)
-      farthest_ = std::max(farthest_, s.z);
+      farthest_ = std::max(farthest_, midpoint_ ? s.second : s.z);
     farthest_known_ = true;
   }
   return farthest_;
 }
 
 /// Front to back: C += T Ci, T *= 1 - Oi for each component, until the opacity threshold (RISpec 3.2, 4.2).
-SampleBuffer::Result SampleBuffer::composite(size_t index) {
+/// The depth is that of the first surface opaque enough to have one.
+SampleResult SampleBuffer::composite(size_t index) {
   const Sample& sample = samples_[index];
   scratch_.clear();
   for (uint32_t f = sample.fragments; f != kNone; f = fragments_[f].next)
@@ -181,92 +268,51 @@ SampleBuffer::Result SampleBuffer::composite(size_t index) {
   std::sort(scratch_.begin(), scratch_.end(), [](const Fragment* a, const Fragment* b) {
     return a->z != b->z ? a->z < b->z : a->order < b->order;
   });
-  Result out;
-  Color through(1.0f);
+  SampleResult out;
+  Color C(0.0f), O(0.0f), through(1.0f);
   auto add = [&](Color Ci, Color Oi, bool matte) {
     if (!matte) {
-      out.Ci += through * Ci;
-      out.Oi += through * Oi;
+      C += through * Ci;
+      O += through * Oi;
     }
     through *= Color(1.0f) - Oi;
   };
-  auto aovs = static_cast<size_t>(settings_.aov_floats);
-  auto keep_first = [&](const Fragment* f) {
-    if (aovs == 0) return;
-    auto order = static_cast<std::ptrdiff_t>(f->order) * static_cast<std::ptrdiff_t>(aovs);
-    std::copy_n(fragment_aov_.begin() + order, aovs,
-                sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs));
-  };
+  auto own_aov = sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_);
+  bool seen = false, closed = false;
   for (const Fragment* f : scratch_) {
-    if (out.z == kInfinity && !f->matte) {
-      out.z = f->z;
-      keep_first(f);
+    if (!seen && !f->matte) {
+      seen = true;
+      std::copy_n(fragment_aov_.begin() + static_cast<std::ptrdiff_t>(f->order * aovs_), aovs_, own_aov);
     }
+    if (!f->matte && reaches(f->Oi, settings_.depth_threshold))
+      out.channels[Image::kZ] = std::min(out.channels[Image::kZ], f->z);
     add(f->Ci, f->Oi, f->matte);
-    if (reaches(Color(1.0f) - through, settings_.opacity_threshold)) return out;
+    closed = reaches(Color(1.0f) - through, settings_.opacity_threshold);
+    if (closed) break;
   }
-  if (sample.z < kInfinity) {
+  if (!closed && sample.z < kInfinity) {
     add(sample.Ci, sample.Oi, sample.matte);
-    if (!sample.matte)
-      out.z = std::min(out.z, sample.z);
-    else if (out.z == kInfinity)
-      std::fill_n(sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs), aovs, 0.0f);
+    if (sample.matte && !seen) std::fill_n(own_aov, aovs_, 0.0f);
   }
+  if (sample.z < kInfinity && !sample.matte) {
+    float z = sample.z;
+    if (midpoint_ && sample.second < kInfinity) z = 0.5f * (z + sample.second);
+    out.channels[Image::kZ] = std::min(out.channels[Image::kZ], z);
+  }
+  for (int c = 0; c < 3; ++c) {
+    out.channels[Image::kCi + c] = C[c];
+    out.channels[Image::kOi + c] = O[c];
+  }
+  out.channels[Image::kAlpha] = (O.x + O.y + O.z) / 3;
   return out;
 }
 
 void SampleBuffer::finish(Image& image) {
-  results_.resize(samples_.size());
+  std::vector<SampleResult> results(samples_.size());
   for (size_t i = 0; i < samples_.size(); ++i)
-    results_[i] = composite(i);
-  for (int y = rect_.y0; y < rect_.y1; ++y)
-    for (int x = rect_.x0; x < rect_.x1; ++x)
-      filter_pixel(x, y, image.pixel(x, y));
-}
-
-void SampleBuffer::filter_pixel(int x, int y, float* out) const {
-  const PixelFilter& filter = settings_.filter;
-  auto aovs = static_cast<size_t>(settings_.aov_floats);
-  float cx = static_cast<float>(x) + 0.5f, cy = static_cast<float>(y) + 0.5f;
-  // The pixels the filter reaches: all their samples are looked at, those outside its width weigh nothing.
-  int mx = settings_.xmargin(), my = settings_.ymargin();
-  std::fill_n(out, static_cast<size_t>(Image::kAov) + aovs, 0.0f);
-  out[Image::kZ] = Image::kEmptyDepth;
-  float total = 0;
-  auto accumulate = [&](int from_x, int to_x, int from_y, int to_y, bool even) {
-    for (int j = (from_y - covered_.y0) * settings_.ysamples; j < (to_y - covered_.y0) * settings_.ysamples;
-         ++j)
-      for (int i = (from_x - covered_.x0) * settings_.xsamples; i < (to_x - covered_.x0) * settings_.xsamples;
-           ++i) {
-        size_t k = static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i);
-        const Sample& s = samples_[k];
-        float w = even ? 1 : filter_weight(filter, s.at.x - cx, s.at.y - cy);
-        if (w == 0) continue;
-        total += w;
-        for (int c = 0; c < 3; ++c) {
-          out[Image::kCi + c] += w * results_[k].Ci[c];
-          out[Image::kOi + c] += w * results_[k].Oi[c];
-        }
-        for (size_t c = 0; c < aovs; ++c)
-          out[static_cast<size_t>(Image::kAov) + c] += w * sample_aov_[k * aovs + c];
-      }
-  };
-  accumulate(x - mx, x + mx + 1, y - my, y + my + 1, false);
-  // A filter so narrow that it missed all samples: the plain mean of the pixel.
-  if (total == 0) accumulate(x, x + 1, y, y + 1, true);
-  for (int c = 0; c < 6; ++c)
-    out[c] /= total;
-  for (size_t c = 0; c < aovs; ++c)
-    out[static_cast<size_t>(Image::kAov) + c] /= total;
-  out[Image::kAlpha] = (out[3] + out[4] + out[5]) / 3;
-  // Depths are not blended: the nearest of the pixel's own samples.
-  for (int j = 0; j < settings_.ysamples; ++j)
-    for (int i = 0; i < settings_.xsamples; ++i) {
-      int row = (y - covered_.y0) * settings_.ysamples + j,
-          column = (x - covered_.x0) * settings_.xsamples + i;
-      size_t k = static_cast<size_t>(row) * static_cast<size_t>(width_) + static_cast<size_t>(column);
-      out[Image::kZ] = std::min(out[Image::kZ], results_[k].z);
-    }
+    results[i] = composite(i);
+  reconstruct(settings_.reconstruction, settings_.size, rect_, covered_, pattern_, results, sample_aov_,
+              image);
 }
 
 } // namespace render

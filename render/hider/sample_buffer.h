@@ -1,8 +1,11 @@
-// The samples of one bucket: jittered positions, the opaque surface nearest to each, and the transparent ones
-// in front of it; composited and filtered into pixels when all grids are in.
+// The samples of one bucket: the opaque surface nearest to each, and the transparent ones in front of it;
+// composited when all grids are in, and then filtered into pixels (reconstruct.h).
 #pragma once
 
+#include "render/hider/depth_mask.h"
 #include "render/hider/image.h"
+#include "render/hider/reconstruct.h"
+#include "render/hider/sample_pattern.h"
 #include "render/hider/shaded_grid.h"
 #include "render/state/options.h"
 
@@ -12,17 +15,18 @@
 namespace render {
 
 struct SamplingSettings {
-  int xsamples = 2, ysamples = 2; ///< per pixel
-  bool jitter = true;
-  PixelFilter filter;
+  SampleGridSize size;
+  ReconstructionSettings reconstruction;
   Color opacity_threshold{0.996f};
+  Color depth_threshold{1.0f}; ///< a transparent surface as opaque as this has a depth
   float near_plane = 0, far_plane = kInfinity;
-  int aov_floats = 0;
+  bool moving = false;          ///< grids may move
+  const Camera* lens = nullptr; ///< null: all is in focus
+  const DepthMask* mask = nullptr;
+  Vec2 mask_scale{1.0f}; ///< from raster to parts of the frame
 
-  static SamplingSettings from(const Options&, int aov_floats);
-  /// Pixels around a bucket whose samples its filter reaches.
-  int xmargin() const;
-  int ymargin() const;
+  static SamplingSettings from(const Options&, const std::vector<AovChannel>&);
+  size_t aov_floats() const { return reconstruction.aov_floats(); }
 };
 
 class SampleBuffer {
@@ -48,34 +52,33 @@ private:
     bool matte;
   };
   struct Sample {
-    Vec2 at;
-    float z = kInfinity; ///< of the nearest opaque surface; infinite: none
+    float z = kInfinity;      ///< of the nearest opaque surface; infinite: none
+    float second = kInfinity; ///< of the opaque surface behind it; kept for midpoints only
     Color Ci{0.0f}, Oi{0.0f};
     uint32_t fragments = kNone;
     bool matte = false;
   };
-  /// What a sample comes to: Ci, Oi and the depth of the first surface.
-  struct Result {
-    Color Ci{0.0f}, Oi{0.0f};
-    float z = kInfinity;
-  };
   static constexpr uint32_t kNone = 0xffffffffu;
 
   void draw_micropolygon(const ShadedGrid& grid, size_t k);
-  void hit(const ShadedGrid& grid, Sample& sample, size_t index, const size_t (&corners)[3],
-           const float (&weights)[3]);
-  Result composite(size_t index);
-  void filter_pixel(int x, int y, float* out) const;
+  void draw_moving(const ShadedGrid& grid, size_t k);
+  void hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
+           float z);
+  bool masked(size_t index, float z) const;
+  SampleResult composite(size_t index);
 
   SamplingSettings settings_;
   PixelRect rect_, covered_;
-  int width_, height_; ///< samples
+  SamplePattern pattern_;
   std::vector<Sample> samples_;
+  std::vector<Vec2> lens_;      ///< each sample's point of the lens, as raster shift without defocus
+  std::vector<Box> lens_boxes_; ///< the same, of each stratum
   std::vector<Fragment> fragments_;
+  size_t aovs_; ///< floats of variables for each sample
   std::vector<float> sample_aov_, fragment_aov_;
-  std::vector<Result> results_;
   std::vector<const Fragment*> scratch_;
   size_t open_;
+  bool midpoint_;
   mutable float farthest_ = kInfinity;
   mutable bool farthest_known_ = false;
 };

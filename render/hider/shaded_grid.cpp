@@ -1,6 +1,7 @@
 // Projection of grid points and culling of micropolygons.
 #include "render/hider/shaded_grid.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace render {
@@ -15,26 +16,32 @@ bool is_finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-void hide_micropolygons(const slvm::Grid& grid, const Camera& camera, bool one_sided, ShadedGrid& out) {
+/// Calls `test` with the four corners of each micropolygon and hides those for which it is true.
+template <class Test> void hide_where(const slvm::Grid& grid, ShadedGrid& out, Test&& test) {
   const slvm::Planes& P = grid.variable(slvm::Global::kP);
   auto nu = static_cast<size_t>(out.nu), nv = static_cast<size_t>(out.nv);
-  float sign = grid.flip_normals ? -1.0f : 1.0f;
-  float nearest = camera.perspective() ? camera.near_plane() : -kInfinity;
-  out.hidden.assign((nu - 1) * (nv - 1), 0);
   for (size_t j = 0, m = 0; j + 1 < nv; ++j)
     for (size_t i = 0; i + 1 < nu; ++i, ++m) {
       size_t k = j * nu + i;
       Vec3 p[4] = {read(P, k), read(P, k + 1), read(P, k + nu), read(P, k + nu + 1)};
-      bool hidden = false;
-      for (Vec3 q : p)
-        hidden = hidden || !is_finite(q) || q.z < nearest;
-      // The two diagonals span the plane of the micropolygon also where a side has collapsed.
-      if (one_sided) {
-        Vec3 normal = glm::cross(p[3] - p[0], p[2] - p[1]) * sign;
-        hidden = hidden || glm::dot(normal, camera.incident((p[0] + p[3]) * 0.5f)) > 0;
-      }
-      out.hidden[m] = hidden;
+      if (test(p)) out.hidden[m] = 1;
     }
+}
+
+void hide_behind_eye(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
+  float nearest = camera.perspective() ? camera.near_plane() : -kInfinity;
+  hide_where(grid, out, [&](const Vec3(&p)[4]) {
+    return std::any_of(p, p + 4, [&](Vec3 q) { return !is_finite(q) || q.z < nearest; });
+  });
+}
+
+void hide_back_faces(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
+  float sign = grid.flip_normals ? -1.0f : 1.0f;
+  hide_where(grid, out, [&](const Vec3(&p)[4]) {
+    // The two diagonals span the plane of the micropolygon also where a side has collapsed.
+    Vec3 normal = glm::cross(p[3] - p[0], p[2] - p[1]) * sign;
+    return glm::dot(normal, camera.incident((p[0] + p[3]) * 0.5f)) > 0;
+  });
 }
 
 } // namespace
@@ -68,6 +75,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
     out.aov_floats += c.components;
   out.aov.assign(points * static_cast<size_t>(out.aov_floats), 0.0f);
   for (const AovChannel& c : aovs) {
+    if (c.source != AovChannel::Source::kVariable) continue;
     const slvm::Planes* planes = shader.output(primitive, grid, c.name);
     if (!planes || !planes->data) continue;
     int components = std::min(c.components, slvm::components(planes->type));
@@ -76,9 +84,26 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
         out.aov[k * static_cast<size_t>(out.aov_floats) + static_cast<size_t>(c.first + i)] =
             planes->get(static_cast<size_t>(i), k);
   }
-  hide_micropolygons(grid, camera, a.sides == 1, out);
+  out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), 0);
+  hide_behind_eye(grid, camera, out);
+  if (a.sides == 1) hide_back_faces(grid, camera, out);
   if (outline) snap_to_outline(*outline, out.nu, out.nv, out.position);
   return out;
+}
+
+void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const Camera& camera,
+                   const GridOutline* outline) {
+  const slvm::Planes& P = grid.variable(slvm::Global::kP);
+  if (shaded.times.empty()) shaded.times.push_back(0);
+  shaded.times.push_back(time);
+  std::vector<Vec3> moved(grid.points());
+  for (size_t k = 0; k < moved.size(); ++k) {
+    Vec3 p = read(P, k);
+    moved[k] = Vec3(camera.project(p), p.z);
+  }
+  hide_behind_eye(grid, camera, shaded);
+  if (outline) snap_to_outline(*outline, shaded.nu, shaded.nv, moved);
+  shaded.position.insert(shaded.position.end(), moved.begin(), moved.end());
 }
 
 } // namespace render

@@ -13,8 +13,10 @@
 namespace render {
 
 struct ShadedGrid {
-  int nu = 0, nv = 0;         ///< points
-  std::vector<Vec3> position; ///< raster x and y, camera z
+  int nu = 0, nv = 0; ///< points
+  std::vector<Vec3>
+      position;             ///< raster x and y, camera z; of a moving grid at all `times`, one after another
+  std::vector<float> times; ///< of a moving grid: parts of the shutter time, from 0 to 1; else empty
   std::vector<Color> Ci, Oi;
   std::vector<float> aov; ///< aov_floats a point
   int aov_floats = 0;
@@ -22,11 +24,27 @@ struct ShadedGrid {
   bool matte = false;
   bool smooth = false;
   size_t bad_colours = 0; ///< points whose colour was not a finite number; they became black and opaque
+
+  size_t points() const { return static_cast<size_t>(nu) * static_cast<size_t>(nv); }
+  /// A point at a part of the shutter time.
+  Vec3 at(size_t point, float time) const {
+    if (times.empty()) return position[point];
+    size_t key = 0;
+    while (key + 2 < times.size() && time > times[key + 1])
+      ++key;
+    float weight = (time - times[key]) / (times[key + 1] - times[key]);
+    const Vec3 &a = position[key * points() + point], &b = position[(key + 1) * points() + point];
+    return a + (b - a) * weight;
+  }
 };
 
 /// From a grid that was displaced and shaded. Micropolygons that face away (Sides 1) or touch the eye plane
 /// are hidden. Null outline: none is needed.
 ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
                             const GridOutline* outline, std::span<const AovChannel> aovs, GridShader& shader);
+
+/// Adds where the points are at a later time, from a grid that was displaced.
+void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const Camera& camera,
+                   const GridOutline* outline);
 
 } // namespace render

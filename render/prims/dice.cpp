@@ -235,6 +235,13 @@ void renew_geometry(const Camera& camera, slvm::Grid& grid) {
     }
 }
 
+void set_motion(slvm::Grid& grid, const slvm::Grid& at_close, float duration) {
+  const slvm::Planes &from = grid.variable(Global::kP), &to = at_close.variable(Global::kP);
+  Triple motion = triple(grid, Global::kdPdtime);
+  for (size_t k = 0; k < grid.points(); ++k)
+    motion.set(k, duration > 0 ? (read(to, k) - read(from, k)) / duration : Vec3(0.0f));
+}
+
 bool faces_away(const slvm::Grid& grid, const Camera& camera) {
   const slvm::Planes &P = grid.variable(Global::kP), &Ng = grid.variable(Global::kNg);
   for (size_t k = 0; k < grid.points(); ++k)

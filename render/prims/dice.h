@@ -27,6 +27,9 @@ void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const D
 /// displacement shader left.
 void renew_geometry(const Camera& camera, slvm::Grid& grid);
 
+/// dPdtime of a grid, from where its points are when the shutter closes, `duration` later.
+void set_motion(slvm::Grid& grid, const slvm::Grid& at_close, float duration);
+
 /// Whether every point faces away from the eye, by Ng.
 bool faces_away(const slvm::Grid& grid, const Camera& camera);
 

@@ -10,26 +10,42 @@
 
 namespace render {
 
+/// A value of something that moves; times are parts of the shutter time, from 0 to 1.
+template <class T> struct TimedValue {
+  float time;
+  T value;
+};
+using MotionMatrices = std::vector<TimedValue<Matrix4>>;
+using MotionShapes = std::vector<TimedValue<std::shared_ptr<const Geometry>>>;
+
 /// What the patches of one request share.
 struct PrimitiveState {
   std::shared_ptr<const Attributes> attributes;
-  Matrix4 object_to_camera;
+  Matrix4 object_to_camera; ///< when the shutter opens
   Matrix4 camera_to_object;
+  MotionMatrices motion;        ///< object to camera from time 0 to 1; empty: it stands still
   bool mirrored = false;        ///< object_to_camera changes handedness
   float displacement_bound = 0; ///< farthest a displacement shader moves a point, in camera space
 };
 
 struct Primitive {
   std::shared_ptr<const PrimitiveState> state;
-  std::shared_ptr<const Geometry> geometry;
+  std::shared_ptr<const Geometry> geometry; ///< when the shutter opens
+  MotionShapes deformation;                 ///< from time 0 to 1; empty: it keeps its shape
   std::vector<PatchVar> vars;
   /// The part of the shaders' u and v that this surface is: patches of a mesh share one square.
   UvRect uv = {};
 
   const Attributes& attributes() const { return *state->attributes; }
-  /// Box of a part in camera space, displacement included.
+  /// Box of a part in camera space, displacement and motion included. Points go in straight lines: what holds
+  /// all keys holds all that is between them.
   Box camera_bound(const UvRect& rect) const {
-    Box box = transform_box(state->object_to_camera, geometry->bound(rect));
+    Box shape = geometry->bound(rect);
+    for (const auto& key : deformation)
+      shape.add(key.value->bound(rect));
+    Box box = transform_box(state->object_to_camera, shape);
+    for (const auto& key : state->motion)
+      box.add(transform_box(key.value, shape));
     box.grow(state->displacement_bound);
     return box;
   }

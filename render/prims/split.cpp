@@ -133,7 +133,8 @@ void Splitter::split(const Piece& piece, bool along_u, int eye_splits) {
 /// True when all corners are on the outer side of one side plane of the viewing pyramid. Works in homogeneous
 /// coordinates, hence also for boxes that reach behind the eye.
 bool Splitter::outside_frustum(const Box& box) const {
-  if (!camera_.perspective()) return false;
+  // Out of focus, a box outside the pyramid may be seen: its raster bound decides.
+  if (!camera_.perspective() || camera_.has_lens()) return false;
   const auto& m = camera_.to_raster().m;
   bool left = true, right = true, top = true, bottom = true;
   for (int i = 0; i < 8; ++i) {
@@ -157,6 +158,9 @@ void Splitter::raster_bound(const Box& box, GridTask& task) const {
     task.raster_min = glm::min(task.raster_min, r);
     task.raster_max = glm::max(task.raster_max, r);
   }
+  Vec2 blur = camera_.blur(std::max(box.min.z, camera_.near_plane()), box.max.z);
+  task.raster_min -= blur;
+  task.raster_max += blur;
 }
 
 /// Longest row and column of a coarse lattice, in pixels or (for pieces behind the eye) in camera space.

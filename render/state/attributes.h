@@ -48,6 +48,8 @@ struct Attributes {
   std::string name; ///< Attribute "identifier" "name"
   /// Whatever else attribute() can ask for, by "category:parameter".
   std::map<std::string, slvm::Value> named;
+  /// Attribute "cull": false shades what cannot be seen, too, as baking needs it.
+  bool cull_hidden = true, cull_backfacing = true;
   /// Spaces named by ScopedCoordinateSystem, to camera.
   std::map<std::string, Matrix4> scoped_spaces;
 

@@ -49,8 +49,19 @@ Camera::Camera(const Options& o)
   auto [left, right, bottom, top] = o.window();
   to_ndc_ = to_screen_ * translation({-left, -top, 0}) * scaling({1 / (right - left), 1 / (bottom - top), 1});
   to_raster_ = to_ndc_ * scaling({static_cast<float>(o.xres), static_cast<float>(o.yres), 1});
+  if (perspective_ && o.fstop < kInfinity) {
+    lens_radius_ = 0.5f * o.focal_length / o.fstop;
+    focal_distance_ = o.focal_distance;
+  }
   crop_range(o.xres, o.crop[0], o.crop[1], crop_.x0, crop_.x1);
   crop_range(o.yres, o.crop[2], o.crop[3], crop_.y0, crop_.y1);
+}
+
+Vec2 Camera::blur(float znear, float zfar) const {
+  if (!has_lens()) return Vec2(0.0f);
+  const auto& m = to_raster_.m;
+  float most = std::max(std::abs(defocus(znear)), std::abs(defocus(zfar))) * lens_radius_;
+  return {std::hypot(m[0], m[4]) * most, std::hypot(m[1], m[5]) * most};
 }
 
 } // namespace render

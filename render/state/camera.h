@@ -29,6 +29,16 @@ public:
   bool perspective() const { return perspective_; }
   /// The eye: the origin (also for orthographic cameras, where I is (0,0,z)).
   Vec3 incident(Vec3 p) const { return perspective_ ? p : Vec3(0, 0, p.z); }
+  /// Whether what is out of focus is blurred.
+  bool has_lens() const { return lens_radius_ > 0; }
+  /// A point at depth z, seen through `lens` of the unit disk, moves by lens_to_raster(lens) * defocus(z).
+  float defocus(float z) const { return 1 / focal_distance_ - 1 / z; }
+  Vec2 lens_to_raster(Vec2 lens) const {
+    const auto& m = to_raster_.m;
+    return Vec2(lens.x * m[0] + lens.y * m[4], lens.x * m[1] + lens.y * m[5]) * lens_radius_;
+  }
+  /// The farthest a point between two depths moves in x and y.
+  Vec2 blur(float znear, float zfar) const;
   float near_plane() const { return near_; }
   float far_plane() const { return far_; }
   /// The pixels to render: crop window within the frame.
@@ -38,6 +48,7 @@ private:
   Matrix4 to_screen_, to_ndc_, to_raster_;
   bool perspective_;
   float near_, far_;
+  float lens_radius_ = 0, focal_distance_ = kInfinity;
   PixelRect crop_;
 };
 

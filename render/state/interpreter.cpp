@@ -1,6 +1,6 @@
 // The dispatch of requests: which member function carries out which, where they are legal, messages. The
-// requests themselves: interpreter_blocks.cpp, _archives.cpp, _conditions.cpp, _options.cpp, _attributes.cpp,
-// _transforms.cpp, _geometry.cpp.
+// requests themselves: interpreter_blocks.cpp, _motion.cpp, _archives.cpp, _conditions.cpp, _options.cpp,
+// _attributes.cpp, _transforms.cpp, _geometry.cpp.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -43,8 +43,12 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kScreenWindow, &I::screen_window), set(kCropWindow, &I::crop_window);
     set(kProjection, &I::projection), set(kClipping, &I::clipping), set(kShutter, &I::shutter);
     set(kPixelSamples, &I::pixel_samples), set(kPixelFilter, &I::pixel_filter), set(kExposure, &I::exposure);
-    set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display);
-    set(kHider, &I::hider), set(kOption, &I::option);
+    set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display),
+        set(kDisplayChannel, &I::display_channel);
+    set(kDepthOfField, &I::depth_of_field), set(kHider, &I::hider), set(kOption, &I::option);
+
+    set(kMakeTexture, &I::make_request), set(kMakeShadow, &I::make_request);
+    set(kMakeLatLongEnvironment, &I::make_request), set(kMakeCubeFaceEnvironment, &I::make_request);
 
     set(kAttribute, &I::attribute), set(kColor, &I::color), set(kOpacity, &I::opacity);
     set(kTextureCoordinates, &I::texture_coordinates);
@@ -89,6 +93,15 @@ void Interpreter::carry_out(const RequestCall& call) {
     warn_once(std::string(info.name), call.where, "rib-unsupported",
               fmt::format("{} is not supported yet: {}", info.name, info.lacks));
   if (!legal(call)) return;
+  if (in_motion_ && call.id != RequestId::kMotionEnd)
+    if (moved_by_motion_block(call)) return;
+  if (!motion_.empty() && is_transformation(call.id))
+    transform_request(call);
+  else
+    call_handler(call);
+}
+
+void Interpreter::call_handler(const RequestCall& call) {
   if (Handler h = handler(call.id)) (this->*h)(call);
 }
 

@@ -2,6 +2,7 @@
 // each world block over as a Scene. One member function per request; requests.def says which are legal where.
 #pragma once
 
+#include "render/prims/motion.h"
 #include "render/rib/ri_target.h"
 #include "render/state/procedural.h"
 #include "render/state/program.h"
@@ -20,6 +21,11 @@ struct SubdivisionMesh;
 struct ClassSizes {
   size_t uniform = 1, varying = 4, vertex = 4, facevarying = 4;
 };
+
+/// Requests that change the current transformation.
+bool is_transformation(RequestId);
+/// Requests that make surfaces.
+bool is_primitive(RequestId);
 
 class Interpreter : public RiTarget {
 public:
@@ -42,6 +48,8 @@ public:
 
   /// The starting options; changes count until the file changes them.
   Options& options() { return options_; }
+  /// Carries out a Make request with the options of the moment; "" or what is wrong.
+  std::function<std::string(const RequestCall&, const Options&)> make_map;
   /// Called with the options at each WorldBegin: command-line overrides.
   std::function<void(Options&)> override_options;
   /// Requests archives and instances may repeat in all. A few levels that each read the next one ten times
@@ -60,10 +68,21 @@ private:
     slvm::SourceRange where;
     std::shared_ptr<Attributes> attributes;
     Matrix4 ctm;
+    MotionMatrices motion;
     std::optional<Options> options;
     // of conditions
     bool taken = false;       ///< one of its branches was
     bool last_branch = false; ///< Else has been seen
+  };
+  /// The motion block that is open.
+  struct MotionBlock {
+    std::vector<float> times;
+    size_t calls = 0; ///< seen so far
+    RequestId kind = RequestId::kCount;
+    MotionMatrices before;                      ///< the transformation at each time when the block began
+    MotionMatrices transforms;                  ///< what the calls made of it
+    size_t first_primitive = 0, primitives = 0; ///< of the first call
+    std::vector<MotionShapes> shapes;           ///< of each of these
   };
   /// Requests kept for ObjectInstance or ArchiveInstance.
   struct Recording {
@@ -111,6 +130,12 @@ private:
   void solid_end(const RequestCall&);
   void motion_begin(const RequestCall&);
   void motion_end(const RequestCall&);
+  bool moved_by_motion_block(const RequestCall&);
+  void motion_transform(const RequestCall&, float time);
+  void motion_shape(const RequestCall&, float time);
+  void transform_request(const RequestCall&);
+  void call_handler(const RequestCall&);
+  MotionMatrices motion_keys() const;
   void object_begin(const RequestCall&);
   void object_instance(const RequestCall&);
   void archive_begin(const RequestCall&);
@@ -141,10 +166,14 @@ private:
   void imager(const RequestCall&);
   void quantize(const RequestCall&);
   void display(const RequestCall&);
+  void display_channel(const RequestCall&);
+  void depth_of_field(const RequestCall&);
   void hider(const RequestCall&);
+  bool hider_parameter(const RequestCall&, const std::string& name, const slvm::Value& value);
   void option(const RequestCall&);
   void search_path(const RequestCall&);
   void limits(const RequestCall&);
+  void make_request(const RequestCall&);
 
   // attributes
   void attribute(const RequestCall&);
@@ -219,7 +248,10 @@ private:
 
   Options options_;
   std::shared_ptr<Attributes> attributes_;
-  Matrix4 ctm_; ///< to camera
+  Matrix4 ctm_;                 ///< to camera, when the shutter opens
+  MotionMatrices motion_;       ///< the same at the times of motion blocks; empty: it stands still
+  MotionMatrices world_motion_; ///< world to camera of a moving camera
+  std::optional<MotionBlock> in_motion_;
   std::vector<Block> blocks_;
   std::map<std::string, std::shared_ptr<const ShaderRequest>> lights_;
   std::map<std::string, Matrix4> spaces_;
@@ -230,12 +262,11 @@ private:
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
   int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
   bool in_world_ = false;
-  int motion_calls_ = -1; ///< requests seen in the open motion block; -1: none is open
-  int skip_depth_ = 0;    ///< > 0: in a branch that is not taken, so many conditions deep
-  int depth_ = 0;         ///< of archives and instances
-  int inline_depth_ = 0;  ///< of inline archives among them
-  size_t replayed_ = 0;   ///< requests that came from archives and instances
-  bool stopped_ = false;  ///< what follows is not carried out
+  int skip_depth_ = 0;   ///< > 0: in a branch that is not taken, so many conditions deep
+  int depth_ = 0;        ///< of archives and instances
+  int inline_depth_ = 0; ///< of inline archives among them
+  size_t replayed_ = 0;  ///< requests that came from archives and instances
+  bool stopped_ = false; ///< what follows is not carried out
   enum class ErrorHandling : uint8_t { kIgnore, kPrint, kAbort };
   ErrorHandling error_handler_ = ErrorHandling::kPrint;
   std::string scene_folder_; ///< of the file given by the user

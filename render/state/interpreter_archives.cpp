@@ -161,9 +161,11 @@ void Interpreter::object_instance(const RequestCall& call) {
   // What an object changes of the state must not leak to what follows.
   auto attributes = attributes_;
   Matrix4 ctm = ctm_;
+  MotionMatrices motion = motion_;
   replay(call, *calls);
   attributes_ = attributes;
   ctm_ = ctm;
+  motion_ = std::move(motion);
 }
 
 void Interpreter::archive_instance(const RequestCall& call) {

@@ -22,12 +22,16 @@ void Interpreter::attribute(const RequestCall& call) {
       continue;
     }
     edit().named[category + ":" + value->first] = value->second;
+    if (category == "cull" && value->second.numbers.size() == 1) {
+      if (value->first == "hidden") edit().cull_hidden = value->second.numbers[0] != 0;
+      if (value->first == "backfacing") edit().cull_backfacing = value->second.numbers[0] != 0;
+    }
     if (category == "identifier" && value->first == "name" && !value->second.strings.empty())
       edit().name = value->second.strings[0];
   }
   if (category == "displacementbound")
     displacement_bound(call);
-  else if (category != "user" && category != "identifier" && category != "trimcurve")
+  else if (category != "user" && category != "identifier" && category != "trimcurve" && category != "cull")
     warn_once("Attribute " + category, call.where, "rib-unsupported",
               fmt::format("Attribute \"{}\" has no effect yet (shaders can read its values)", category));
 }

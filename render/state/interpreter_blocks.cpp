@@ -1,4 +1,4 @@
-// Blocks: frames, worlds, attributes, transformations, motion, solids.
+// Blocks: frames, worlds, attributes, transformations, solids.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ constexpr std::string_view kBlockNames[] = {"FrameBegin", "WorldBegin",  "Attrib
 
 void Interpreter::open(const RequestCall& call, BlockKind kind) {
   if (blocks_.size() == kMaxBlocks) error(call, fmt::format("more than {} nested blocks", kMaxBlocks));
-  blocks_.push_back({kind, call.where, attributes_, ctm_, {}, false, false});
+  blocks_.push_back({kind, call.where, attributes_, ctm_, motion_, {}, false, false});
 }
 
 /// Restores what the innermost block of this kind saved. Blocks left open inside it are reported and closed
@@ -43,7 +43,10 @@ bool Interpreter::close(const RequestCall& call, BlockKind kind) {
   const Block& block = blocks_[at - 1];
   if (kind == BlockKind::kFrame || kind == BlockKind::kWorld || kind == BlockKind::kAttribute)
     attributes_ = block.attributes;
-  if (kind <= BlockKind::kTransform) ctm_ = block.ctm;
+  if (kind <= BlockKind::kTransform) {
+    ctm_ = block.ctm;
+    motion_ = block.motion;
+  }
   if (block.options) options_ = *block.options;
   blocks_.resize(at - 1);
   return true;
@@ -77,7 +80,9 @@ void Interpreter::world_begin(const RequestCall& call) {
   open(call, BlockKind::kWorld);
   in_world_ = true;
   scene_ = {};
+  if (!motion_.empty()) ctm_ = matrix_at(motion_, options_.shutter_open); // Shutter may have come after it
   scene_.world_to_camera = ctm_;
+  world_motion_ = motion_;
   scene_.options = options_;
   add_last_folders(scene_.options);
   if (override_options) override_options(scene_.options);
@@ -93,7 +98,7 @@ void Interpreter::world_end(const RequestCall& call) {
   run_procedurals();
   scene_.spaces = spaces_;
   in_world_ = false;
-  motion_calls_ = -1;
+  in_motion_.reset();
   if (render_world_ && !stopped_) render_world_(scene_);
   scene_ = {};
 }
@@ -115,16 +120,6 @@ void Interpreter::solid_begin(const RequestCall& call) {
 }
 void Interpreter::solid_end(const RequestCall& call) {
   close(call, BlockKind::kSolid);
-}
-
-void Interpreter::motion_begin(const RequestCall& call) {
-  open(call, BlockKind::kMotion);
-  motion_calls_ = 0;
-}
-
-void Interpreter::motion_end(const RequestCall& call) {
-  close(call, BlockKind::kMotion);
-  motion_calls_ = -1;
 }
 
 } // namespace render

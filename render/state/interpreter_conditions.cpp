@@ -17,8 +17,7 @@ bool Interpreter::skipped(const RequestCall& call) {
     bool next_branch = call.id == RequestId::kElseIf || call.id == RequestId::kElse;
     return !(next_branch && skip_depth_ == 1);
   }
-  if (motion_calls_ < 0 || call.id == RequestId::kMotionEnd) return false;
-  return ++motion_calls_ > 1;
+  return false;
 }
 
 /// A condition that cannot be evaluated is false.

@@ -107,10 +107,16 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
   auto state = std::make_shared<PrimitiveState>();
   state->attributes = attributes_;
   state->object_to_camera = ctm_;
+  state->motion = clip_to_shutter(motion_, scene_.options.shutter_open, scene_.options.shutter_close);
   state->camera_to_object = inverse_or_identity(ctm_);
   state->mirrored = slvm::determinant3(ctm_) < 0;
   state->displacement_bound = displacement_bound_of(*attributes_, ctm_);
   return state;
+}
+
+bool is_primitive(RequestId id) {
+  return id >= RequestId::kSphere && id <= RequestId::kGeometry && id != RequestId::kBasis &&
+         id != RequestId::kTrimCurve;
 }
 
 /// A patch whose varying and vertex variables have four values.

@@ -97,27 +97,17 @@ void Interpreter::pixel_samples(const RequestCall& call) {
 }
 
 void Interpreter::pixel_filter(const RequestCall& call) {
-  constexpr std::pair<std::string_view, FilterKind> kFilters[] = {
-      {"box", FilterKind::kBox},           {"triangle", FilterKind::kTriangle},
-      {"gaussian", FilterKind::kGaussian}, {"catmull-rom", FilterKind::kCatmullRom},
-      {"b-spline", FilterKind::kBSpline},  {"sinc", FilterKind::kSinc},
-      {"mitchell", FilterKind::kMitchell}};
   constexpr float kWidest = 32;
   float x = call.number(1), y = call.number(2);
   if (!(x > 0) || !(y > 0) || x > kWidest || y > kWidest) {
     error(call, fmt::format("expected widths above 0 and up to {} pixels", kWidest));
     return;
   }
-  std::vector<std::string_view> names;
-  for (auto [name, kind] : kFilters) {
-    if (name == call.text(0)) {
-      options_.filter = {kind, x, y};
-      return;
-    }
-    names.push_back(name);
-  }
-  error_at(call.arguments[0].where, call,
-           fmt::format("unknown filter \"{}\"; known are {}", call.text(0), fmt::join(names, ", ")));
+  if (auto kind = find_filter(call.text(0)))
+    options_.filter = {*kind, x, y};
+  else
+    error_at(call.arguments[0].where, call,
+             fmt::format("unknown filter \"{}\"; known are {}", call.text(0), filter_names()));
 }
 
 void Interpreter::exposure(const RequestCall& call) {
@@ -174,21 +164,94 @@ void Interpreter::display(const RequestCall& call) {
   options_.displays.push_back(std::move(d));
 }
 
-void Interpreter::hider(const RequestCall& call) {
-  if (call.text(0) != "hidden")
-    warn_once("Hider " + call.text(0), call.where, "rib-unsupported",
-              fmt::format("Hider \"{}\" is not supported yet: \"hidden\" is used", call.text(0)));
+void Interpreter::display_channel(const RequestCall& call) {
+  auto declared = declarations_.resolve(call.text(0));
+  if (!declared && call.text(0).find_first_of(" \t[") != std::string::npos) {
+    error_at(call.arguments[0].where, call, declared.error());
+    return;
+  }
+  ChannelRequest channel{call.text(0), {}, call.where};
   for (const Param& p : call.params) {
     auto value = loose_value(p, declarations_);
-    if (!value) {
+    if (value)
+      channel.params[value->first] = value->second;
+    else
       error_at(p.where, call, value.error());
-    } else if (value->first == "jitter" && value->second.numbers.size() == 1) {
-      options_.jitter = value->second.numbers[0] != 0;
-    } else {
+  }
+  options_.channels[declared ? declared->name : call.text(0)] = std::move(channel);
+}
+
+/// "-" or nothing: a pinhole.
+void Interpreter::depth_of_field(const RequestCall& call) {
+  if (!call.has(1) || call.number(1) > 1e20f) {
+    options_.fstop = kInfinity;
+    return;
+  }
+  if (!call.has(3) || !(call.number(1) > 0) || !(call.number(2) > 0) || !(call.number(3) > 0)) {
+    error(call, "expected f-stop, focal length and focal distance above 0, or - for a pinhole");
+    return;
+  }
+  options_.fstop = call.number(1);
+  options_.focal_length = call.number(2);
+  options_.focal_distance = call.number(3);
+}
+
+void Interpreter::hider(const RequestCall& call) {
+  const std::string& type = call.text(0);
+  if (type != "hidden" && type != "depthmask")
+    warn_once("Hider " + type, call.where, "rib-unsupported",
+              fmt::format("Hider \"{}\" is not supported yet: \"hidden\" is used", type));
+  options_.depth_mask.reset();
+  if (type == "depthmask") options_.depth_mask = DepthMaskRequest{{}, false, 0.01f, call.where};
+  for (const Param& p : call.params) {
+    auto value = loose_value(p, declarations_);
+    if (!value)
+      error_at(p.where, call, value.error());
+    else if (!hider_parameter(call, value->first, value->second))
       warn_once("Hider/" + value->first, p.where, "rib-unsupported",
                 fmt::format("Hider parameter \"{}\" is not supported yet and has no effect", value->first));
-    }
   }
+  if (options_.depth_mask && options_.depth_mask->file.empty()) {
+    error(call, "\"depthmask\" needs \"zfile\", the depth image to compare with");
+    options_.depth_mask.reset();
+  }
+}
+
+/// False: nobody knows it.
+bool Interpreter::hider_parameter(const RequestCall& call, const std::string& name,
+                                  const slvm::Value& value) {
+  if (value.strings.size() == 1) {
+    if (name == "zfile" && options_.depth_mask) {
+      options_.depth_mask->file = value.strings[0];
+      return true;
+    }
+    if (name != "depthfilter") return false;
+    constexpr std::pair<std::string_view, DepthFilter> kNames[] = {{"min", DepthFilter::kMin},
+                                                                   {"max", DepthFilter::kMax},
+                                                                   {"average", DepthFilter::kAverage},
+                                                                   {"midpoint", DepthFilter::kMidpoint}};
+    for (auto [known, filter] : kNames)
+      if (known == value.strings[0]) {
+        options_.depth_filter = filter;
+        return true;
+      }
+    error(call,
+          fmt::format("unknown depthfilter \"{}\"; known are min, max, average, midpoint", value.strings[0]));
+    return true;
+  }
+  if (value.numbers.size() != 1) return false;
+  float number = value.numbers[0];
+  if (name == "jitter")
+    options_.jitter = number != 0;
+  else if (name == "subpixel")
+    options_.subpixel = number != 0;
+  else if (name == "reversesign" && options_.depth_mask)
+    options_.depth_mask->reverse = number != 0;
+  else if (name == "depthbias" && options_.depth_mask)
+    options_.depth_mask->bias = number;
+  else
+    return false;
+  return true;
 }
 
 void Interpreter::option(const RequestCall& call) {
@@ -214,9 +277,28 @@ void Interpreter::option(const RequestCall& call) {
   }
   if (category == "limits")
     limits(call);
-  else if (category != "user" && category != "shutter")
+  else if (category != "user" && category != "shutter" && category != "statistics")
     warn_once("Option " + category, call.where, "rib-unsupported",
               fmt::format("Option \"{}\" has no effect yet (shaders can read its values)", category));
+}
+
+namespace {
+
+/// swidth and twidth, which stand before the parameters.
+std::optional<std::array<float, 2>> make_widths(const RequestCall& call) {
+  if (call.id == RequestId::kMakeShadow) return {};
+  int first = call.id == RequestId::kMakeTexture ? 5 : call.id == RequestId::kMakeLatLongEnvironment ? 3 : 9;
+  return std::array{call.number(first), call.number(first + 1)};
+}
+
+} // namespace
+
+void Interpreter::make_request(const RequestCall& call) {
+  if (!make_map) return;
+  if (auto widths = make_widths(call); widths && (*widths)[0] * (*widths)[1] != 1)
+    warn_once("make widths", call.where, "rib-unsupported",
+              "filters of maps have a width of their own: swidth and twidth have no effect");
+  if (std::string why = make_map(call, options_); !why.empty()) error(call, why);
 }
 
 void Interpreter::search_path(const RequestCall& call) {
@@ -246,8 +328,10 @@ void Interpreter::limits(const RequestCall& call) {
   if (auto h = number("bucketsize", 1)) options_.bucket_height = clamp(*h, 4, 1024);
   if (auto n = number("gridsize", 0)) options_.grid_size = clamp(*n, 4, 65536);
   if (auto n = number("eyesplits", 0)) options_.eye_splits = clamp(*n, 0, 24);
-  for (size_t i = 0; i < 3; ++i)
+  for (size_t i = 0; i < 3; ++i) {
     if (auto o = number("othreshold", i)) options_.opacity_threshold[static_cast<int>(i)] = *o;
+    if (auto z = number("zthreshold", i)) options_.depth_threshold[static_cast<int>(i)] = *z;
+  }
 }
 
 } // namespace render

@@ -64,6 +64,7 @@ void Interpreter::procedural(const RequestCall& call) {
   p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
   p.attributes = attributes_;
   p.object_to_camera = ctm_;
+  p.motion = motion_;
   p.folder = folder_;
   p.depth = procedural_depth_ + 1;
   p.where = call.where;
@@ -100,6 +101,7 @@ void Interpreter::report(const Procedural& p, std::string_view text) {
 void Interpreter::run(const Procedural& p, float area) {
   auto attributes = std::exchange(attributes_, p.attributes);
   Matrix4 ctm = std::exchange(ctm_, p.object_to_camera);
+  MotionMatrices motion = std::exchange(motion_, p.motion);
   std::string folder = std::exchange(folder_, p.folder);
   std::vector<Block> blocks = std::exchange(blocks_, {});
   procedural_depth_ = p.depth;
@@ -113,10 +115,11 @@ void Interpreter::run(const Procedural& p, float area) {
   if (recording_.depth > 0 || !blocks_.empty()) report(p, "a block is left open at its end");
   recording_ = {};
   skip_depth_ = 0;
-  motion_calls_ = -1;
+  in_motion_.reset();
   blocks_ = std::move(blocks);
   folder_ = folder;
   ctm_ = ctm;
+  motion_ = std::move(motion);
   attributes_ = attributes;
 }
 

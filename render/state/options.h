@@ -11,22 +11,62 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace render {
 
 enum class ProjectionKind : uint8_t { kOrthographic, kPerspective };
-enum class FilterKind : uint8_t { kBox, kTriangle, kGaussian, kCatmullRom, kBSpline, kSinc, kMitchell };
+enum class FilterKind : uint8_t {
+  kBox,
+  kTriangle,
+  kGaussian,
+  kCatmullRom,
+  kBSpline,
+  kSinc,
+  kMitchell,
+  kDisk,
+  kSeparableCatmullRom,
+  kBlackmanHarris,
+  kLanczos,
+  kBessel
+};
+/// By the name a scene uses: "box", "catmull-rom"...
+std::optional<FilterKind> find_filter(std::string_view name);
+/// All names, for messages.
+std::string filter_names();
 
 struct PixelFilter {
   FilterKind kind = FilterKind::kGaussian;
   float xwidth = 2, ywidth = 2;
 };
 
+/// Which depth a pixel of a z image gets: of its own samples the nearest, the farthest, their mean, or the
+/// nearest middle between the first two surfaces (Woo, 1992).
+enum class DepthFilter : uint8_t { kMin, kMax, kAverage, kMidpoint };
+
+/// Hider "depthmask": what is in front of a depth image (or behind it) is left out.
+struct DepthMaskRequest {
+  std::string file;
+  bool reverse = false; ///< leave out what is behind
+  float bias = 0.01f;
+  slvm::SourceRange where;
+};
+
 struct Quantization {
   int one = 255, min = 0, max = 255;
   float dither = 0.5f;
   bool set = false; ///< by a request, not by default
+  int zero = 0;     ///< what 0 becomes
+  /// No quantisation at all.
+  bool is_float() const { return one == zero; }
+};
+
+/// One DisplayChannel request.
+struct ChannelRequest {
+  std::string declaration; ///< "varying color name"
+  std::map<std::string, slvm::Value> params;
+  slvm::SourceRange where;
 };
 
 /// One Display request.
@@ -46,6 +86,8 @@ struct Options {
   ProjectionKind projection = ProjectionKind::kOrthographic;
   float fov = 90;
   float near_plane = 0.01f, far_plane = 1e30f;
+  /// The lens is focal_length / fstop wide; a pinhole by default.
+  float fstop = kInfinity, focal_length = 0, focal_distance = kInfinity;
   float shutter_open = 0, shutter_close = 0, shutter_offset = 0;
   /// The transformation in force at Projection: acts after the projection, on the image plane.
   Matrix4 screen_transform;
@@ -53,11 +95,15 @@ struct Options {
   // sampling and image
   int xsamples = 2, ysamples = 2;
   bool jitter = true;
+  bool subpixel = false; ///< a pixel of the image for each sample
+  DepthFilter depth_filter = DepthFilter::kMin;
+  std::optional<DepthMaskRequest> depth_mask;
   PixelFilter filter;
   float gain = 1, gamma = 1;
   Quantization rgba;
   Quantization z{0, 0, 0, 0, false};
   std::vector<DisplayRequest> displays;
+  std::map<std::string, ChannelRequest> channels; ///< by name
   std::shared_ptr<const ShaderRequest> imager;
 
   // limits
@@ -65,6 +111,7 @@ struct Options {
   int grid_size = 256; ///< micropolygons in a grid, at most
   int eye_splits = 10;
   Color opacity_threshold{0.996f}; ///< opacity at which a sample counts as closed
+  Color depth_threshold{1.0f};     ///< opacity at which a surface shows in z images
 
   /// "shader", "archive", ... : the directories in order.
   std::map<std::string, std::vector<std::string>> search_paths;

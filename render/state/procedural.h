@@ -2,6 +2,7 @@
 // whether its bound can be seen; only then is its archive read or its program asked.
 #pragma once
 
+#include "render/prims/motion.h"
 #include "render/state/attributes.h"
 #include "render/state/camera.h"
 
@@ -17,9 +18,10 @@ struct Procedural {
   std::vector<std::string> arguments;
   Box bound; ///< object space
   std::shared_ptr<Attributes> attributes;
-  Matrix4 object_to_camera;
-  std::string folder; ///< of the file it stands in
-  int depth = 0;      ///< procedurals it came from
+  Matrix4 object_to_camera; ///< when the shutter opens
+  MotionMatrices motion;    ///< when it moves
+  std::string folder;       ///< of the file it stands in
+  int depth = 0;            ///< procedurals it came from
   slvm::SourceRange where;
 };
 

@@ -1,5 +1,7 @@
 #include "render/texture/texture_maps.h"
 
+#include "render/texture/depth_image.h"
+#include "render/texture/find_image.h"
 #include "render/texture/shadow_map.h"
 
 #include <OpenImageIO/imageio.h>
@@ -19,7 +21,6 @@ using slvm::Value;
 class TextureMaps::System {
 public:
   explicit System(const Settings& settings) : textures_(OIIO::TextureSystem::create(false)) {
-    textures_->attribute("searchpath", settings.search_path);
     textures_->attribute("automip", 1);   // ordinary images get their levels
     textures_->attribute("autotile", 64); // and are kept in tiles
     textures_->attribute("max_memory_MB", settings.memory_megabytes);
@@ -85,6 +86,31 @@ void set_point_mode(OIIO::TextureOpt& o, const TextureLookup& l, bool is_point) 
 TextureMaps::TextureMaps(const Settings& settings) : settings_(settings) {}
 TextureMaps::~TextureMaps() = default;
 
+std::string TextureMaps::file_of(std::string_view map) {
+  std::lock_guard lock(files_mutex_);
+  auto it = files_.find(map);
+  if (it != files_.end()) return it->second;
+  std::string file = find_image(map, settings_.folders).value_or(std::string(map));
+  // The same name in a folder of the path is no replacement.
+  if (file != map && !file.ends_with("/" + std::string(map))) replaced_[std::string(map)] = file;
+  return files_.emplace(std::string(map), std::move(file)).first->second;
+}
+
+std::map<std::string, std::string> TextureMaps::replaced() {
+  std::lock_guard lock(files_mutex_);
+  return replaced_;
+}
+
+TextureMaps::Usage TextureMaps::usage() {
+  if (!system_) return {};
+  Usage out;
+  int files = 0;
+  (*system_)->getattribute("stat:unique_files", OIIO::TypeDesc::INT, &files);
+  (*system_)->getattribute("stat:cache_memory_used", OIIO::TypeDesc::INT64, &out.bytes);
+  out.files = files;
+  return out;
+}
+
 TextureMaps::System& TextureMaps::system() {
   std::call_once(system_made_, [&] { system_ = std::make_unique<System>(settings_); });
   return *system_;
@@ -94,10 +120,10 @@ namespace {
 
 /// Looks up every active point; `at(point)` gives its footprint.
 template <class System, class F>
-std::string look_up(System& system, const TextureLookup& l, OIIO::TextureOpt::Wrap swrap,
-                    OIIO::TextureOpt::Wrap twrap, F&& at) {
+std::string look_up(System& system, const std::string& file, const TextureLookup& l,
+                    OIIO::TextureOpt::Wrap swrap, OIIO::TextureOpt::Wrap twrap, F&& at) {
   OIIO::TextureSystem::Perthread* thread = system->get_perthread_info();
-  OIIO::TextureSystem::TextureHandle* map = system->get_texture_handle(OIIO::ustring(l.map), thread);
+  OIIO::TextureSystem::TextureHandle* map = system->get_texture_handle(OIIO::ustring(file), thread);
   if (!map || !system->good(map)) return system.problem(l.map);
   const OIIO::TextureOpt plain = options_of(l);
   for (size_t i = 0; i < l.points; ++i) {
@@ -142,15 +168,16 @@ Footprint latlong(const TextureLookup& l, size_t i) {
 } // namespace
 
 std::string TextureMaps::texture(const TextureLookup& l) {
-  return look_up(system(), l, OIIO::TextureOpt::WrapDefault, OIIO::TextureOpt::WrapDefault, [&](size_t i) {
-    return Footprint{l.centre[0][i],  l.centre[1][i],  l.along_u[0][i],
-                     l.along_u[1][i], l.along_v[0][i], l.along_v[1][i]};
-  });
+  return look_up(system(), file_of(l.map), l, OIIO::TextureOpt::WrapDefault, OIIO::TextureOpt::WrapDefault,
+                 [&](size_t i) {
+                   return Footprint{l.centre[0][i],  l.centre[1][i],  l.along_u[0][i],
+                                    l.along_u[1][i], l.along_v[0][i], l.along_v[1][i]};
+                 });
 }
 
 std::string TextureMaps::environment(const TextureLookup& l) {
   if (l.map == kRays) return kNoRays;
-  return look_up(system(), l, OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapClamp,
+  return look_up(system(), file_of(l.map), l, OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapClamp,
                  [&](size_t i) { return latlong(l, i); });
 }
 
@@ -164,26 +191,19 @@ bool read_matrix(const OIIO::ImageSpec& spec, const char* name, slvm::Matrix4& m
 }
 
 std::shared_ptr<const ShadowMap> read_shadow_map(const std::string& path, std::string& problem) {
-  auto in = OIIO::ImageInput::open(path);
-  if (!in) {
-    problem = OIIO::geterror();
-    return nullptr;
-  }
-  auto map = std::make_shared<ShadowMap>();
-  const OIIO::ImageSpec& spec = in->spec();
-  if (!read_matrix(spec, "worldtocamera", map->world_to_camera) ||
-      !read_matrix(spec, "worldtoscreen", map->world_to_screen)) {
+  DepthImage image;
+  problem = read_depth_image(path, image);
+  if (!problem.empty()) return nullptr;
+  if (image.world_to_camera.empty() || image.world_to_screen.empty()) {
     problem = "is no shadow map: it lacks the matrices worldtocamera and worldtoscreen";
     return nullptr;
   }
-  map->width = spec.width;
-  map->height = spec.height;
-  map->depth.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height));
-  int channel = std::max(spec.z_channel, 0);
-  if (!in->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, map->depth.data())) {
-    problem = in->geterror();
-    return nullptr;
-  }
+  auto map = std::make_shared<ShadowMap>();
+  std::copy_n(image.world_to_camera.begin(), 16, map->world_to_camera.m.begin());
+  std::copy_n(image.world_to_screen.begin(), 16, map->world_to_screen.m.begin());
+  map->width = image.width;
+  map->height = image.height;
+  map->depth = std::move(image.depth);
   return map;
 }
 
@@ -193,8 +213,7 @@ std::shared_ptr<const ShadowMap> TextureMaps::shadow_map(const std::string& name
   std::lock_guard lock(shadows_mutex_);
   auto [it, is_new] = shadows_.try_emplace(name);
   if (is_new) {
-    std::string path = system()->resolve_filename(name);
-    it->second.map = read_shadow_map(path.empty() ? name : path, it->second.problem);
+    it->second.map = read_shadow_map(file_of(name), it->second.problem);
   }
   problem = it->second.problem;
   return it->second.map;
@@ -240,7 +259,7 @@ Value matrix_value(const slvm::Matrix4& m) {
 bool TextureMaps::info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world,
                        Value& out) {
   OIIO::ImageSpec spec;
-  if (!system()->get_imagespec(OIIO::ustring(map), 0, spec)) {
+  if (!system()->get_imagespec(OIIO::ustring(file_of(map)), 0, spec)) {
     system()->geterror();
     return false;
   }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace render {
 
@@ -16,8 +17,8 @@ class ShadowMap;
 class TextureMaps : public slvm::TextureServices {
 public:
   struct Settings {
-    std::string search_path;   ///< folders, separated by colons
-    float shadow_bias = 0.01f; ///< where the shader says none
+    std::vector<std::string> folders; ///< where maps are looked for
+    float shadow_bias = 0.01f;        ///< where the shader says none
     float memory_megabytes = 1024;
   };
   explicit TextureMaps(const Settings&);
@@ -29,6 +30,15 @@ public:
   bool info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world,
             slvm::Value& out) override;
 
+  /// Maps that were missing, and the files found in their place (find_image.h).
+  std::map<std::string, std::string> replaced();
+
+  /// Files read so far, and memory their tiles take.
+  struct Usage {
+    long long files = 0, bytes = 0;
+  };
+  Usage usage();
+
 private:
   class System;
   System& system(); ///< made when it is first asked for
@@ -38,6 +48,12 @@ private:
   Settings settings_;
   std::once_flag system_made_;
   std::unique_ptr<System> system_;
+  /// The file of a map; its name when there is none.
+  std::string file_of(std::string_view map);
+
+  std::mutex files_mutex_;
+  std::map<std::string, std::string, std::less<>> files_;
+  std::map<std::string, std::string> replaced_;
   std::mutex shadows_mutex_;
   struct LoadedShadow {
     std::shared_ptr<const ShadowMap> map;

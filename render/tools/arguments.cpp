@@ -17,9 +17,9 @@ namespace render::tools {
 namespace {
 
 constexpr std::string_view kLongNames[] = {
-    "help",   "version", "progress",    "Progress",       "progressformat", "crop",
-    "res",    "cwd",     "shaders",     "archives",       "threads",        "verbose",
-    "nowarn", "Werror",  "procedurals", "allow-programs", "program-timeout"};
+    "help",        "version",        "progress",        "Progress",   "progressformat", "crop",   "res",
+    "cwd",         "shaders",        "archives",        "threads",    "verbose",        "nowarn", "Werror",
+    "procedurals", "allow-programs", "program-timeout", "statistics", "statisticsfile"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -103,6 +103,10 @@ Arguments parse_arguments(int argc, char** argv) {
       ->check(CLI::Range(0.01, 1e6));
   app.add_flag(
       "-v,--verbose", [&](auto n) { out.verbosity = 1 + static_cast<int>(n); }, "say what is done");
+  app.add_flag("--statistics", out.statistics,
+               "print what each frame cost: grids, shading by shader, memory");
+  app.add_option("--statisticsfile", out.statistics_file,
+                 "write it to a file, a line of JSON for each frame");
   app.add_flag("--nowarn", out.no_warnings, "no warnings");
   app.add_flag("--Werror", out.warnings_are_errors, "warnings are errors");
   app.footer(

@@ -24,6 +24,8 @@ struct Arguments {
   std::vector<std::string> procedural_path;
   bool allow_programs = false;
   double program_seconds = 60;
+  bool statistics = false;
+  std::string statistics_file; ///< JSON lines; empty: none
   int verbosity = 1;
   bool warnings_are_errors = false, no_warnings = false;
 

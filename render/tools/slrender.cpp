@@ -1,5 +1,6 @@
 // slrender: reads RIB files and renders every world block in them.
 #include "render/renderer.h"
+#include "render/statistics.h"
 #include "render/tools/arguments.h"
 #include "render/tools/compiling_loader.h"
 
@@ -7,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <mutex>
@@ -89,6 +91,15 @@ void override_options(const Arguments& arguments, render::Options& options) {
   }
 }
 
+/// Under a temporary name first: a reader never sees half a file.
+bool write_whole(const std::string& name, const std::string& text) {
+  std::string temporary = fmt::format("{}.{}.part", name, ::getpid());
+  std::ofstream(temporary) << text;
+  std::error_code error;
+  std::filesystem::rename(temporary, name, error);
+  return !error;
+}
+
 int run(const Arguments& arguments) {
   if (!arguments.directory.empty()) {
     std::error_code error;
@@ -110,6 +121,11 @@ int run(const Arguments& arguments) {
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
   settings.flush_messages = [&] { messages.flush(); };
   settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
+  std::string statistics;
+  settings.statistics = [&](const render::FrameStatistics& s) {
+    if (arguments.statistics || s.asked_for) std::fputs(format_text(s).c_str(), stderr);
+    statistics += format_json(s) + "\n";
+  };
   if (progress.wanted()) settings.progress = [&](double fraction) { progress.show(fraction); };
 
   render::Renderer renderer(messages.sources, messages.diagnostics, settings);
@@ -132,6 +148,10 @@ int run(const Arguments& arguments) {
   if (arguments.verbosity > 1)
     for (const std::string& name : renderer.written())
       fmt::print("{}\n", name);
+  if (!arguments.statistics_file.empty() && !write_whole(arguments.statistics_file, statistics)) {
+    fmt::print(stderr, "slrender: error: cannot write \"{}\"\n", arguments.statistics_file);
+    return kMissingFile;
+  }
   if (missing) return kMissingFile;
   return messages.failed ? kWrongInput : kFine;
 }

@@ -102,6 +102,84 @@ TEST_F(Display, several_displays_with_shader_variables) {
   EXPECT_EQ(spec.nchannels, 1);
 }
 
+TEST_F(Display, each_display_has_its_own_exposure_and_quantisation) {
+  EXPECT_EQ(write("Exposure 2 1 Quantize \"rgba\" 255 0 255 0 Display \"" + path("a.png") +
+                  "\" \"png\" \"rgb\" "
+                  "Display \"+" +
+                  path("b.tif") +
+                  "\" \"tiff\" \"rgba\" \"float[2] exposure\" [1 2] "
+                  "\"float[4] quantize\" [0 0 0 0] Display \"+" +
+                  path("c.tif") +
+                  "\" \"tiff\" \"rgb\" \"float[4] quantize\" [10 110 0 255] \"float dither\" 0"),
+            "");
+  OIIO::ImageSpec spec;
+  EXPECT_NEAR(read("a.png", spec)[1], 128 / 255.0f, 1e-5f);
+  auto b = read("b.tif", spec);
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+  EXPECT_FLOAT_EQ(b[1], 0.5f); // the root of .25
+  EXPECT_FLOAT_EQ(b[3], 1);
+  EXPECT_NEAR(read("c.tif", spec)[1], 60 / 255.0f, 1e-5f); // halfway from 10 to 110
+}
+
+TEST_F(Display, a_display_has_its_own_filter) {
+  Rendered r = render_text(
+      "Format 9 9 1 PixelSamples 8 8 PixelFilter \"box\" 1 1 Display \"a\" \"tiff\" \"rgb\" Display \"+b\" "
+      "\"tiff\" \"rgba\" \"filter\" \"box\" \"float[2] filterwidth\" [3 3] WorldBegin "
+      "Polygon \"P\" [-.1111 -.1111 1 .1111 -.1111 1 .1111 .1111 1 -.1111 .1111 1] WorldEnd");
+  EXPECT_EQ(r.messages, "");
+  EXPECT_NEAR(r.alpha(4, 4), 1, 1e-4f);
+  EXPECT_EQ(r.alpha(3, 4), 0);
+  for (int x : {3, 4, 5})
+    EXPECT_NEAR(r.image.pixel(x, 3)[Image::kAov + 3], 1 / 9.0f, 1e-4f);
+  EXPECT_EQ(r.image.pixel(2, 4)[Image::kAov + 3], 0);
+}
+
+TEST_F(Display, channels_of_one_file) {
+  EXPECT_EQ(write("DisplayChannel \"varying normal N\" DisplayChannel \"varying float u\" \"filter\" \"box\" "
+                  "Display \"" +
+                  path("m.exr") + "\" \"openexr\" \"Ci,a,z,N,u\""),
+            "");
+  OIIO::ImageSpec spec;
+  auto p = read("m.exr", spec);
+  ASSERT_EQ(spec.nchannels, 9);
+  auto at = [&](const std::string& name) { return p[static_cast<size_t>(spec.channelindex(name))]; };
+  EXPECT_EQ(at("R"), 0.5f);
+  EXPECT_EQ(at("A"), 1);
+  EXPECT_EQ(at("Z"), 5);
+  EXPECT_NEAR(at("N.B"), 1, 1e-5f);
+}
+
+TEST_F(Display, depth_files_and_uncompressed_floats) {
+  EXPECT_EQ(write("Display \"" + path("shad.z") + "\" \"zfile\" \"z\""), "");
+  OIIO::ImageSpec spec;
+  EXPECT_EQ(read("shad.z", spec)[0], 5);
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+  EXPECT_EQ(
+      write("Display \"" + path("P.tif") + "\" \"tiff\" \"varying point P\" \"string compression\" \"none\""),
+      "");
+  auto p = read("P.tif", spec);
+  EXPECT_EQ(spec.get_string_attribute("compression"), "none");
+  EXPECT_EQ(p[2], 5);
+}
+
+TEST_F(Display, wrong_parameters_are_reported) {
+  auto message = [&](const std::string& parameters) {
+    return write("Display \"" + path("x.tif") + "\" \"tiff\" \"rgb\" " + parameters);
+  };
+  EXPECT_THAT(message("\"filter\" \"x\""), HasSubstr("Display: \"filter\" takes one of box, "));
+  EXPECT_THAT(message("\"float[2] filterwidth\" [0 1]"),
+              HasSubstr("\"filterwidth\" takes two widths above 0"));
+  EXPECT_THAT(message("\"float[2] exposure\" [1 0]"),
+              HasSubstr("\"exposure\" takes gain and a gamma above 0"));
+  EXPECT_THAT(message("\"float[2] dither\" [1 0]"), HasSubstr("\"dither\" takes one number"));
+  EXPECT_THAT(message("\"float[2] quantize\" [1 0]"), HasSubstr("\"quantize\" takes what 0 and 1 become"));
+  EXPECT_THAT(write("DisplayChannel \"color c\" \"filter\" \"x\" Display \"x\" \"tiff\" \"c\""),
+              HasSubstr("Display: channel \"c\": \"filter\" takes one of"));
+  EXPECT_THAT(write("Display \"x\" \"tiff\" \",\""), HasSubstr("Display: unknown mode \",\""));
+  EXPECT_THAT(write("DisplayChannel \"varying colr c\" Display \"x\" \"null\" \"rgb\""),
+              HasSubstr("DisplayChannel: "));
+}
+
 TEST_F(Display, nothing_is_left_of_a_failed_write) {
   std::string nowhere = path("no/such/folder/a.png");
   EXPECT_THAT(write("Display \"" + nowhere + "\" \"png\" \"rgba\""), HasSubstr("Display: cannot write"));

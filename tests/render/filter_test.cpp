@@ -10,9 +10,18 @@
 namespace render {
 namespace {
 
-constexpr FilterKind kAll[] = {FilterKind::kBox,        FilterKind::kTriangle, FilterKind::kGaussian,
-                               FilterKind::kCatmullRom, FilterKind::kBSpline,  FilterKind::kSinc,
-                               FilterKind::kMitchell};
+constexpr FilterKind kAll[] = {FilterKind::kBox,
+                               FilterKind::kTriangle,
+                               FilterKind::kGaussian,
+                               FilterKind::kCatmullRom,
+                               FilterKind::kBSpline,
+                               FilterKind::kSinc,
+                               FilterKind::kMitchell,
+                               FilterKind::kDisk,
+                               FilterKind::kSeparableCatmullRom,
+                               FilterKind::kBlackmanHarris,
+                               FilterKind::kLanczos,
+                               FilterKind::kBessel};
 
 TEST(Filter, known_weights) {
   EXPECT_EQ(filter_weight({FilterKind::kBox, 2, 2}, 0.9f, -1), 1);
@@ -27,6 +36,15 @@ TEST(Filter, known_weights) {
   EXPECT_FLOAT_EQ(filter_weight({FilterKind::kBSpline, 4, 4}, 1, 0), 1 / 9.0f);
   EXPECT_FLOAT_EQ(filter_weight({FilterKind::kMitchell, 4, 4}, 0, 0), 64 / 81.0f);
   EXPECT_NEAR(filter_weight({FilterKind::kMitchell, 4, 4}, 1, 0), 8 / 9.0f / 18, 1e-6f);
+  EXPECT_EQ(filter_weight({FilterKind::kDisk, 2, 2}, 0.7f, 0.7f), 1);
+  EXPECT_EQ(filter_weight({FilterKind::kDisk, 2, 2}, 0.8f, 0.7f), 0);
+  EXPECT_FLOAT_EQ(filter_weight({FilterKind::kSeparableCatmullRom, 4, 4}, 1.5f, 0), -0.0625f);
+  EXPECT_NEAR(filter_weight({FilterKind::kSeparableCatmullRom, 4, 4}, 1, 0.5f), 0, 1e-6f);
+  EXPECT_FLOAT_EQ(filter_weight({FilterKind::kBlackmanHarris, 4, 4}, 0, 0), 1);
+  EXPECT_NEAR(filter_weight({FilterKind::kBlackmanHarris, 4, 4}, 1, 0), 0.35875f - 0.14128f, 1e-6f);
+  EXPECT_NEAR(filter_weight({FilterKind::kLanczos, 4, 4}, 1, 0.2f), 0, 1e-6f);
+  EXPECT_NEAR(filter_weight({FilterKind::kLanczos, 4, 4}, 0.5f, 0), 2 / kPi * std::sqrt(8.0f) / kPi, 1e-5f);
+  EXPECT_NEAR(filter_weight({FilterKind::kBessel, 6, 6}, 1.219670f, 0), 0, 1e-5f); // the first dark ring
 }
 
 TEST(Filter, zero_outside_and_even_in_x_and_y) {

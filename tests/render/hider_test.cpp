@@ -8,8 +8,8 @@ namespace {
 
 SamplingSettings settings(int samples = 8) {
   SamplingSettings s;
-  s.xsamples = s.ysamples = samples;
-  s.filter = {FilterKind::kBox, 1, 1};
+  s.size = {samples, samples, true};
+  s.reconstruction.filter = {FilterKind::kBox, 1, 1};
   return s;
 }
 
@@ -30,7 +30,7 @@ ShadedGrid sheet(float z, Color Ci, Color Oi) {
 }
 
 Image drawn(const std::vector<ShadedGrid>& grids, const SamplingSettings& s = settings(), int size = 4) {
-  Image image({0, 0, size, size}, s.aov_floats);
+  Image image({0, 0, size, size}, static_cast<int>(s.aov_floats()));
   SampleBuffer buffer(image.rect, s);
   for (const ShadedGrid& g : grids)
     buffer.draw(g);
@@ -62,7 +62,7 @@ TEST(Hider, neighbours_share_edges_without_gap_or_overlap) {
     grids.push_back(quad({centre, ring[k], ring[k + 2], ring[k + 1]}, kWhite * 0.5f, kWhite * 0.5f));
   SamplingSettings s = settings(16);
   for (bool jitter : {true, false}) {
-    s.jitter = jitter;
+    s.size.jitter = jitter;
     Image i = drawn(grids, s);
     for (int y = 0; y < 4; ++y)
       for (int x = 0; x < 4; ++x)
@@ -73,7 +73,7 @@ TEST(Hider, neighbours_share_edges_without_gap_or_overlap) {
 TEST(Hider, samples_on_an_edge_belong_to_one_side) {
   // Without jitter the samples of odd counts lie exactly on x = 1.5 and y = 1.5.
   SamplingSettings s = settings(1);
-  s.jitter = false;
+  s.size.jitter = false;
   auto half = [&](float x0, float x1) {
     return quad({Vec3(x0, -1, 1), Vec3(x1, -1, 1), Vec3(x0, 9, 1), Vec3(x1, 9, 1)}, kWhite * 0.5f,
                 kWhite * 0.5f);
@@ -162,7 +162,7 @@ TEST(Hider, farthest_is_known_once_all_samples_are_closed) {
 
 TEST(Hider, an_aov_shows_the_nearest_surface) {
   SamplingSettings s = settings();
-  s.aov_floats = 1;
+  s.reconstruction.aovs = {{"heat", 1, 0, AovChannel::Source::kVariable, {}}};
   ShadedGrid a = sheet(1, kWhite * 0.5f, kWhite * 0.5f), b = sheet(2, kWhite, kWhite);
   a.aov_floats = b.aov_floats = 1;
   a.aov.assign(4, 7.0f);

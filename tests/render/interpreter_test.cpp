@@ -87,12 +87,92 @@ TEST(Interpreter, archives_that_contain_themselves_end) {
               HasSubstr("archives and instances are nested more than 64 deep"));
 }
 
-TEST(Interpreter, only_the_first_sample_of_a_motion_block_counts) {
+TEST(Interpreter, a_motion_block_moves_what_follows) {
   Rendered r =
-      render_text("Format 4 4 1 WorldBegin MotionBegin [0 1] Translate 1 0 0 Translate 2 0 0 MotionEnd "
-                  "Disk 0 1 360 WorldEnd");
-  EXPECT_EQ(transform_point(r.scene.primitives[0].state->object_to_camera, Vec3{0, 0, 0}), Vec3(1, 0, 0));
-  EXPECT_THAT(r.messages, HasSubstr("MotionBegin is not supported yet: only the first sample"));
+      render_text("Format 4 4 1 Shutter 1 3 WorldBegin MotionBegin [0 4] Translate 1 0 0 Translate 5 0 0 "
+                  "MotionEnd Scale 2 1 1 Translate 0 0 5 Disk 0 9 360 WorldEnd");
+  EXPECT_EQ(r.messages, "");
+  const PrimitiveState& s = *r.scene.primitives[0].state;
+  EXPECT_FLOAT_EQ(s.object_to_camera(3, 0), 2);
+  ASSERT_EQ(s.motion.size(), 2u);
+  EXPECT_FLOAT_EQ(s.motion[0].value(3, 0), 2);
+  EXPECT_FLOAT_EQ(s.motion[1].value(3, 0), 4);
+  EXPECT_FLOAT_EQ(s.motion[1].value(0, 0), 2);
+}
+
+TEST(Interpreter, motion_ends_with_the_block_that_surrounds_it) {
+  Rendered r = render_text(
+      "Format 4 4 1 Shutter 0 1 WorldBegin TransformBegin MotionBegin [0 .5 1] Translate 1 0 0 "
+      "Translate 3 0 0 Translate 4 0 0 MotionEnd Disk 5 9 360 TransformEnd Disk 5 9 360 WorldEnd");
+  EXPECT_EQ(r.scene.primitives[0].state->motion.size(), 3u);
+  EXPECT_TRUE(r.scene.primitives[1].state->motion.empty());
+}
+
+TEST(Interpreter, a_closed_shutter_sees_the_moment_it_opens) {
+  Rendered r =
+      render_text("Format 4 4 1 Shutter .5 .5 WorldBegin MotionBegin [0 1] Translate 0 0 0 Translate 4 0 0 "
+                  "MotionEnd Disk 5 9 360 WorldEnd");
+  EXPECT_TRUE(r.scene.primitives[0].state->motion.empty());
+  EXPECT_FLOAT_EQ(r.scene.primitives[0].state->object_to_camera(3, 0), 2);
+}
+
+TEST(Interpreter, a_moving_camera_moves_the_world) {
+  Rendered r =
+      render_text("Format 4 4 1 Shutter 0 1 MotionBegin [0 1] Translate 0 0 5 Translate 1 0 5 MotionEnd "
+                  "WorldBegin Disk 0 9 360 Identity Disk 0 9 360 WorldEnd");
+  for (const Primitive& p : r.scene.primitives) {
+    ASSERT_EQ(p.state->motion.size(), 2u);
+    EXPECT_FLOAT_EQ(p.state->motion[1].value(3, 0), 1);
+    EXPECT_FLOAT_EQ(p.state->motion[1].value(3, 2), 5);
+  }
+}
+
+TEST(Interpreter, shapes_of_a_motion_block_become_one_primitive) {
+  Rendered r = render_text("Format 4 4 1 Shutter 0 1 WorldBegin Translate 0 0 5 MotionBegin [0 1] "
+                           "Sphere 1 -1 1 360 Sphere 2 -2 2 360 MotionEnd WorldEnd");
+  ASSERT_EQ(r.scene.primitives.size(), 1u);
+  EXPECT_EQ(r.scene.primitives[0].deformation.size(), 2u);
+  EXPECT_NEAR(r.scene.primitives[0].camera_bound({}).max.x, 2, 1e-3f);
+}
+
+TEST(Interpreter, mistakes_in_motion_blocks) {
+  std::string head = "WorldBegin ";
+  EXPECT_THAT(messages_of(head + "MotionBegin [] MotionEnd WorldEnd"), HasSubstr("has at least one time"));
+  EXPECT_THAT(messages_of(head + "MotionBegin [1 0] Translate 0 0 0 Translate 0 0 1 MotionEnd WorldEnd"),
+              HasSubstr("times must increase, found 0 after 1"));
+  EXPECT_THAT(messages_of(head + "MotionBegin [0 1] Translate 0 0 0 MotionEnd WorldEnd"),
+              HasSubstr("the block has 2 times, but 1 requests"));
+  EXPECT_THAT(
+      messages_of(head +
+                  "MotionBegin [0 1] Translate 0 0 0 Translate 0 0 1 Translate 0 0 2 MotionEnd WorldEnd"),
+      HasSubstr("has 2 times; further requests in it are skipped"));
+  EXPECT_THAT(messages_of(head + "MotionBegin [0 1] Translate 0 0 0 Scale 1 1 1 MotionEnd WorldEnd"),
+              HasSubstr("a motion block repeats one request; the first was Translate"));
+  EXPECT_THAT(messages_of(head + "MotionBegin [0 1] Color 0 0 0 Color 1 1 1 MotionEnd WorldEnd"),
+              HasSubstr("Color does not move: the first one in the motion block counts"));
+  EXPECT_THAT(messages_of(head + "MotionBegin [0 1] Polygon \"P\" [0 0 0 1 0 0 1 1 0] "
+                                 "Polygon \"P\" [0 0 0 1 0 0 1 1 0 0 1 0 -1 .5 0] MotionEnd WorldEnd"),
+              HasSubstr("at the first time of the motion block it was"));
+}
+
+TEST(Interpreter, depth_of_field_and_hiders) {
+  auto options = [](const std::string& text) {
+    return render_text("Format 1 1 1 " + text + " WorldBegin WorldEnd").scene.options;
+  };
+  EXPECT_EQ(options("DepthOfField 2 .1 5").focal_distance, 5);
+  EXPECT_EQ(options("DepthOfField 2 .1 5 DepthOfField -").fstop, kInfinity);
+  EXPECT_THAT(messages_of("DepthOfField 2 0 5"),
+              HasSubstr("expected f-stop, focal length and focal distance"));
+  EXPECT_EQ(options("Hider \"hidden\" \"depthfilter\" \"midpoint\"").depth_filter, DepthFilter::kMidpoint);
+  EXPECT_TRUE(options("Hider \"hidden\" \"int subpixel\" 1").subpixel);
+  EXPECT_THAT(messages_of("Hider \"hidden\" \"depthfilter\" \"x\""),
+              HasSubstr("unknown depthfilter \"x\"; known are min"));
+  Options o = options("Hider \"depthmask\" \"zfile\" \"a.z\" \"reversesign\" 1 \"depthbias\" .5");
+  ASSERT_TRUE(o.depth_mask);
+  EXPECT_EQ(o.depth_mask->file, "a.z");
+  EXPECT_TRUE(o.depth_mask->reverse);
+  EXPECT_EQ(o.depth_mask->bias, 0.5f);
+  EXPECT_THAT(messages_of("Hider \"depthmask\""), HasSubstr("\"depthmask\" needs \"zfile\""));
 }
 
 TEST(Interpreter, requests_without_effect_are_named_once) {

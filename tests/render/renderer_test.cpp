@@ -286,6 +286,19 @@ TEST_F(RendererTest, textures_are_found_on_their_search_path) {
   EXPECT_EQ(value(3, 3, 0), 0);
 }
 
+TEST_F(RendererTest, shaders_know_time_and_motion) {
+  shaders_["when"] = "surface when() { Ci = color(time, dtime, xcomp(dPdtime)); Oi = 1; }";
+  EXPECT_EQ(
+      render(
+          "Shutter 1 1.5 Option \"shutter\" \"float offset\" 10 PixelSamples 4 4 WorldBegin Surface \"when\" "
+          "MotionBegin [1 1.5] Translate 0 0 0 Translate .25 0 0 MotionEnd" +
+          kSheet + "WorldEnd"),
+      "");
+  EXPECT_FLOAT_EQ(value(8, 8, 0), 11);
+  EXPECT_FLOAT_EQ(value(8, 8, 1), 0.5f);
+  EXPECT_NEAR(value(8, 8, 2), 0.5f, 1e-4f);
+}
+
 // A picture of depths is a shadow map: what the disk hid from its camera is in shadow, seen from anywhere.
 TEST_F(RendererTest, depth_pictures_are_shadow_maps) {
   std::string map = path("depth.exr");

@@ -56,6 +56,34 @@ TEST_F(SlrenderTest, renders_a_file) {
   EXPECT_TRUE(exists("a.png"));
 }
 
+TEST_F(SlrenderTest, statistics_as_text_and_json) {
+  file("a.rib", kScene);
+  Outcome o = run("-statistics -statisticsfile s.json -t:1 a.rib");
+  EXPECT_EQ(o.status, 0);
+  EXPECT_THAT(o.text, HasSubstr("frame 0: 32 x 24 pixels, 4 samples each, 1 thread"));
+  EXPECT_THAT(o.text, HasSubstr("micropolygons"));
+  EXPECT_THAT(o.text, HasSubstr("seconds \"none\""));
+  std::ifstream in(directory_ / "s.json");
+  std::string json{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_THAT(json,
+              HasSubstr("{\"version\":1,\"frame\":0,\"width\":32,\"height\":24,\"samples_per_pixel\":4,"));
+  EXPECT_THAT(json, HasSubstr("\"primitives\":1,"));
+  EXPECT_THAT(json, HasSubstr("\"shaders\":[{\"name\":\"none\","));
+  EXPECT_EQ(run("-statisticsfile no/such/folder/s.json a.rib").status, 3);
+  file("b.rib", std::string("Option \"statistics\" \"endofframe\" 1\n") + kScene);
+  EXPECT_THAT(run("b.rib").text, HasSubstr("frame 0: 32 x 24 pixels"));
+}
+
+TEST_F(SlrenderTest, a_killed_render_leaves_no_damaged_file) {
+  file("a.rib", "Display \"a.tif\" \"tiff\" \"rgba\"\nFormat 1500 1500 1\nPixelSamples 8 "
+                "8\nWorldBegin\nTranslate 0 0 5\n"
+                "Sphere 1 -1 1 360\nWorldEnd\n");
+  std::string command =
+      fmt::format("cd '{}' && timeout -s KILL 0.4 '{}' a.rib", directory_.string(), SLRENDER_PROGRAM);
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_FALSE(exists("a.tif"));
+}
+
 TEST_F(SlrenderTest, reads_standard_input_when_no_file_is_given) {
   file("a.rib", kScene);
   EXPECT_EQ(run("< a.rib").status, 0);

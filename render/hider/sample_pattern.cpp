@@ -1,0 +1,98 @@
+// Jittered positions; times and lens points stratified over the samples of a pixel.
+#include "render/hider/sample_pattern.h"
+
+#include "render/hider/random.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace render {
+
+namespace {
+
+/// Keeps areas and neighbourhoods (Shirley and Chiu, 1997): squares about the middle become circles.
+Vec2 square_to_disk(Vec2 p) {
+  if (p.x == 0 && p.y == 0) return p;
+  bool wide = std::abs(p.x) > std::abs(p.y);
+  float r = wide ? p.x : p.y;
+  float angle = wide ? kPi / 4 * (p.y / p.x) : kPi / 2 - kPi / 4 * (p.x / p.y);
+  return {r * std::cos(angle), r * std::sin(angle)};
+}
+
+/// A shuffled 0..n-1.
+void shuffle(std::vector<int>& order, int64_t x, int64_t y, uint64_t purpose) {
+  std::iota(order.begin(), order.end(), 0);
+  for (size_t i = order.size(); i > 1; --i) {
+    uint64_t h = hash_of(x, y, purpose + 64 * i);
+    std::swap(order[i - 1], order[static_cast<size_t>(h % i)]);
+  }
+}
+
+} // namespace
+
+SamplePattern::SamplePattern(PixelRect area, const SampleGridSize& size, bool timed)
+    : width_(area.width() * size.xsamples), height_(area.height() * size.ysamples), columns_(area.width()),
+      strata_(size.xsamples * size.ysamples) {
+  at_.reserve(static_cast<size_t>(width_) * static_cast<size_t>(height_));
+  auto xs = static_cast<float>(size.xsamples), ys = static_cast<float>(size.ysamples);
+  for (int j = 0; j < height_; ++j)
+    for (int i = 0; i < width_; ++i) {
+      int x = area.x0 * size.xsamples + i, y = area.y0 * size.ysamples + j;
+      uint64_t h = size.jitter ? hash_of(x, y, kJitter) : 0;
+      float dx = size.jitter ? upper_unit(h) : 0.5f, dy = size.jitter ? lower_unit(h) : 0.5f;
+      at_.emplace_back((static_cast<float>(x) + dx) / xs, (static_cast<float>(y) + dy) / ys);
+    }
+  if (timed) add_strata(area, size);
+}
+
+void SamplePattern::add_strata(PixelRect area, const SampleGridSize& size) {
+  auto n = static_cast<size_t>(strata_);
+  time_.resize(at_.size());
+  lens_.resize(at_.size());
+  of_stratum_.resize(at_.size());
+  // Which cell of the lens goes with which part of the time: the same in the whole frame, in no order.
+  std::vector<int> cells(n), order(n);
+  shuffle(cells, 0, 0, kLensCells);
+  Vec2 cell_size(2 / static_cast<float>(size.xsamples), 2 / static_cast<float>(size.ysamples));
+  auto corner = [&](size_t stratum) {
+    return Vec2(static_cast<float>(cells[stratum] % size.xsamples),
+                static_cast<float>(cells[stratum] / size.xsamples)) *
+               cell_size -
+           Vec2(1.0f);
+  };
+  for (size_t s = 0; s < n; ++s) {
+    // The extremes are at corners of the cell, or where it crosses an axis.
+    constexpr float kSlack = 1e-4f;
+    Vec2 low = corner(s), high = low + cell_size;
+    LensBox box{Vec2(kInfinity), Vec2(-kInfinity)};
+    auto add = [&](Vec2 p) {
+      Vec2 q = square_to_disk(p);
+      box.min = glm::min(box.min, q - kSlack);
+      box.max = glm::max(box.max, q + kSlack);
+    };
+    for (float x : {low.x, high.x})
+      for (float y : {low.y, high.y})
+        add({x, y});
+    if (low.x < 0 && high.x > 0) add({0, low.y}), add({0, high.y});
+    if (low.y < 0 && high.y > 0) add({low.x, 0}), add({high.x, 0});
+    lens_boxes_.push_back(box);
+  }
+  auto width = static_cast<size_t>(width_);
+  for (int row = 0; row < area.height(); ++row)
+    for (int column = 0; column < area.width(); ++column) {
+      int x = area.x0 + column, y = area.y0 + row;
+      shuffle(order, x, y, kStrata);
+      for (size_t s = 0; s < n; ++s) {
+        int i = column * size.xsamples + order[s] % size.xsamples;
+        int j = row * size.ysamples + order[s] / size.xsamples;
+        size_t k = static_cast<size_t>(j) * width + static_cast<size_t>(i);
+        size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
+        of_stratum_[pixel * n + s] = static_cast<uint32_t>(k);
+        uint64_t h = hash_of(x, y, kTime + 64 * s), g = hash_of(x, y, kLens + 64 * s);
+        time_[k] = std::min((static_cast<float>(s) + upper_unit(h)) / static_cast<float>(n), 0x1.fffffep-1f);
+        lens_[k] = square_to_disk(corner(s) + cell_size * Vec2(upper_unit(g), lower_unit(g)));
+      }
+    }
+}
+
+} // namespace render

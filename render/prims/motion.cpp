@@ -1,0 +1,103 @@
+// Interpolation of matrices and shapes in time.
+#include "render/prims/motion.h"
+
+#include <algorithm>
+
+namespace render {
+
+namespace {
+
+Matrix4 blend(const Matrix4& a, const Matrix4& b, float weight) {
+  Matrix4 out;
+  for (size_t i = 0; i < 16; ++i)
+    out.m[i] = a.m[i] + (b.m[i] - a.m[i]) * weight;
+  return out;
+}
+
+/// Halfway, or any other part of the way, between two surfaces with the same parameters.
+class BlendedGeometry : public Geometry {
+public:
+  BlendedGeometry(std::shared_ptr<const Geometry> a, std::shared_ptr<const Geometry> b, float weight)
+      : a_(std::move(a)), b_(std::move(b)), weight_(weight) {}
+
+  Box bound(const UvRect& rect) const override {
+    Box box = a_->bound(rect);
+    box.add(b_->bound(rect));
+    return box;
+  }
+  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+    SurfaceLattice other;
+    a_->evaluate(u, v, out);
+    b_->evaluate(u, v, other);
+    for (size_t k = 0; k < out.P.size(); ++k) {
+      out.P[k] += (other.P[k] - out.P[k]) * weight_;
+      out.dPdu[k] += (other.dPdu[k] - out.dPdu[k]) * weight_;
+      out.dPdv[k] += (other.dPdv[k] - out.dPdv[k]) * weight_;
+      out.N[k] += (other.N[k] - out.N[k]) * weight_;
+    }
+  }
+  bool ruled() const override { return a_->ruled() && b_->ruled(); }
+
+private:
+  std::shared_ptr<const Geometry> a_, b_;
+  float weight_;
+};
+
+template <class T, class At>
+std::vector<TimedValue<T>> clipped(const std::vector<TimedValue<T>>& keys, float open, float close, At&& at) {
+  std::vector<TimedValue<T>> out;
+  if (keys.size() < 2 || !(close > open) || keys.front().time >= close || keys.back().time <= open)
+    return out;
+  out.push_back({0, at(keys, open)});
+  for (const auto& key : keys)
+    if (key.time > open && key.time < close) out.push_back({(key.time - open) / (close - open), key.value});
+  out.push_back({1, at(keys, close)});
+  return out;
+}
+
+} // namespace
+
+Matrix4 matrix_at(const MotionMatrices& keys, float time) {
+  auto [first, weight] = find_key(keys, time);
+  return weight == 0 ? keys[first].value : blend(keys[first].value, keys[first + 1].value, weight);
+}
+
+std::shared_ptr<const Geometry> shape_at(const MotionShapes& keys, float time) {
+  auto [first, weight] = find_key(keys, time);
+  if (weight == 0) return keys[first].value;
+  return std::make_shared<BlendedGeometry>(keys[first].value, keys[first + 1].value, weight);
+}
+
+MotionMatrices clip_to_shutter(const MotionMatrices& keys, float open, float close) {
+  return clipped(keys, open, close, matrix_at);
+}
+
+MotionShapes clip_to_shutter(const MotionShapes& keys, float open, float close) {
+  return clipped(keys, open, close, shape_at);
+}
+
+std::vector<float> motion_times(const Primitive& primitive) {
+  std::vector<float> out;
+  for (const auto& key : primitive.state->motion)
+    out.push_back(key.time);
+  for (const auto& key : primitive.deformation)
+    out.push_back(key.time);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+Primitive primitive_at(const Primitive& primitive, float time) {
+  Primitive out = primitive;
+  if (!primitive.deformation.empty()) out.geometry = shape_at(primitive.deformation, time);
+  out.deformation.clear();
+  if (primitive.state->motion.empty()) return out;
+  auto state = std::make_shared<PrimitiveState>(*primitive.state);
+  state->object_to_camera = matrix_at(primitive.state->motion, time);
+  state->camera_to_object = inverse_or_identity(state->object_to_camera);
+  state->motion.clear();
+  out.state = std::move(state);
+  return out;
+}
+
+} // namespace render

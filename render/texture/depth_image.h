@@ -1,0 +1,19 @@
+// Depths as a camera saw them, from a z image or shadow map.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace render {
+
+struct DepthImage {
+  int width = 0, height = 0;
+  std::vector<float> depth; ///< camera z of the nearest surface, row by row from the top
+  /// Of the world, by rows; empty when the file has none.
+  std::vector<float> world_to_camera, world_to_screen;
+};
+
+/// "" or why there is none.
+std::string read_depth_image(const std::string& path, DepthImage& out);
+
+} // namespace render

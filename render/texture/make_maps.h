@@ -1,0 +1,23 @@
+// Textures, environment and shadow maps from images: tiled mip-maps by OpenImageIO. Functions return "" or
+// why no map was made; a file that exists is then as it was.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace render {
+
+struct MakeSettings {
+  std::string swrap = "black", twrap = "black"; ///< "black", "periodic", "clamp"
+  std::string filter = "box";                   ///< between the levels
+};
+
+std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings&);
+std::string make_latlong(const std::string& image, const std::string& texture, const MakeSettings&);
+/// Faces px nx py ny pz nz, each seen from the middle of the cube with `fov` degrees. They are put together
+/// as one latitude-longitude image, so that there is one way to look up environments, without seams.
+std::string make_cube_environment(const std::array<std::string, 6>& faces, const std::string& texture,
+                                  float fov, const MakeSettings&);
+std::string make_shadow(const std::string& depths, const std::string& shadow);
+
+} // namespace render

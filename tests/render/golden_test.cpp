@@ -1,0 +1,86 @@
+// Pictures compared with the ones in tests/render/golden, which were looked at. With ANEMONE_UPDATE_GOLDEN
+// set the test writes them anew: look at them before they are committed.
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Golden : public ::testing::TestWithParam<std::string> {
+protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / fmt::format("anemone_golden_{}_{}", ::getpid(), GetParam());
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  /// Renders `name`.rib after `before`, and compares out.exr with `picture`.exr.
+  void check(const std::string& name, const std::string& picture, const std::string& before = "") {
+    std::ofstream(directory_ / "before.rib") << before << "\n";
+    std::string command =
+        fmt::format("cd '{}' && '{}' --shaders '{}/shaders:@' --archives '{}' before.rib '{}/{}.rib'",
+                    directory_.string(), SLRENDER_PROGRAM, GOLDEN_FOLDER, GOLDEN_FOLDER, GOLDEN_FOLDER, name);
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    OIIO::ImageBuf now((directory_ / "out.exr").string());
+    ASSERT_TRUE(now.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << now.geterror();
+    std::string golden = fmt::format("{}/{}.exr", GOLDEN_FOLDER, picture);
+    if (std::getenv("ANEMONE_UPDATE_GOLDEN")) {
+      OIIO::ImageSpec spec = now.spec();
+      spec.attribute("compression", "zip");
+      spec.erase_attribute("Software");
+      OIIO::ImageBuf copy(spec);
+      OIIO::ImageBufAlgo::copy(copy, now, OIIO::TypeDesc::FLOAT);
+      copy.specmod().attribute("compression", "zip");
+      ASSERT_TRUE(copy.write(golden, OIIO::TypeDesc::HALF)) << copy.geterror();
+    }
+    OIIO::ImageBuf kept(golden);
+    ASSERT_TRUE(kept.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << golden << ": " << kept.geterror();
+    // Halves keep three digits; pictures differ a little between instruction sets.
+    auto difference = OIIO::ImageBufAlgo::compare(now, kept, 0.05f, 0.02f);
+    EXPECT_LT(difference.rms_error, 0.004) << golden;
+    EXPECT_LT(difference.maxerror, 0.08) << golden << ": pixel " << difference.maxx << " " << difference.maxy
+                                         << " channel " << difference.maxc;
+  }
+
+  fs::path directory_;
+};
+
+TEST_P(Golden, picture) {
+  check(GetParam(), GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Render, Golden,
+                         ::testing::Values("motion_blur", "depth_of_field", "transparency_matte", "variables",
+                                           "shadow_map", "environment", "subpixel", "depth_mask"),
+                         [](const auto& test) { return test.param; });
+
+class GoldenFilter : public Golden {};
+
+TEST_P(GoldenFilter, picture) {
+  std::string name = GetParam();
+  std::string width = name == "box"                                                ? "1 1"
+                      : name == "sinc" || name == "bessel"                         ? "6 6"
+                      : name == "triangle" || name == "gaussian" || name == "disk" ? "2 2"
+                                                                                   : "4 4";
+  check("filter", "filter_" + name, fmt::format("PixelFilter \"{}\" {}", name, width));
+}
+
+INSTANTIATE_TEST_SUITE_P(Render, GoldenFilter,
+                         ::testing::Values("box", "triangle", "gaussian", "catmull-rom",
+                                           "separable-catmull-rom", "b-spline", "sinc", "mitchell", "disk",
+                                           "blackman-harris", "lanczos", "bessel"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+} // namespace

@@ -1,0 +1,236 @@
+// Maps that scenes make, and how maps are found and looked up.
+#include "render/renderer.h"
+#include "render/texture/find_image.h"
+#include "render/texture/make_maps.h"
+#include "render/texture/texture_maps.h"
+#include "slvm/textures.h"
+#include "tests/render/render_text.h"
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imageio.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+namespace render::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+class Maps : public ::testing::Test {
+protected:
+  void SetUp() override {
+    directory_ = fs::temp_directory_path() / ("anemone_maps_" + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  std::string path(const std::string& name) { return (directory_ / name).string(); }
+
+  /// A float image whose pixels are f(s, t).
+  template <class F> std::string image(const std::string& name, int width, int height, F&& f) {
+    OIIO::ImageBuf buffer(OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::FLOAT));
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        Color c = f((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                    (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+        buffer.setpixel(x, y, &c.x);
+      }
+    buffer.write(path(name));
+    return path(name);
+  }
+
+  /// One lookup of a region that is a point unless `width` says more.
+  Color look_up(std::string (TextureMaps::*call)(const slvm::TextureLookup&), const std::string& map, Vec3 at,
+                float width = 0) {
+    slvm::TextureLookup l;
+    uint64_t mask = 1;
+    float result[3] = {};
+    l.map = map;
+    l.channels = 3;
+    l.points = 1;
+    l.mask = &mask;
+    for (int c = 0; c < 3; ++c) {
+      l.centre[c] = {at[c]};
+      l.along_u[c] = {c == 0 ? width : 0};
+      l.along_v[c] = {c == 1 ? width : 0};
+      l.result[c] = &result[c];
+    }
+    TextureMaps::Settings settings;
+    settings.folders = {directory_.string()};
+    TextureMaps maps(settings);
+    problem_ = (maps.*call)(l);
+    replaced_ = maps.replaced();
+    return {result[0], result[1], result[2]};
+  }
+
+  fs::path directory_;
+  std::string problem_;
+  std::map<std::string, std::string> replaced_;
+};
+
+Color ramp(float s, float t) {
+  return {s, t, 0.5f};
+}
+
+TEST_F(Maps, textures_have_levels_and_wraps) {
+  std::string source = image("a.exr", 64, 64, ramp);
+  ASSERT_EQ(make_texture(source, path("a.tex"), {"periodic", "clamp", "triangle"}), "");
+  auto in = OIIO::ImageInput::open(path("a.tex"));
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->spec().get_string_attribute("wrapmodes"), "periodic,clamp");
+  EXPECT_GT(in->spec().tile_width, 0);
+  EXPECT_TRUE(in->seek_subimage(0, 6)); // down to one pixel
+  Color c = look_up(&TextureMaps::texture, path("a.tex"), {0.25f, 0.75f, 0});
+  EXPECT_NEAR(c.x, 0.25f, 2e-3f);
+  EXPECT_NEAR(c.y, 0.75f, 2e-3f);
+  // Beyond the sides: round again in s, the last row in t.
+  EXPECT_NEAR(look_up(&TextureMaps::texture, path("a.tex"), {1.25f, 0.5f, 0}).x, 0.25f, 2e-3f);
+  EXPECT_NEAR(look_up(&TextureMaps::texture, path("a.tex"), {0.5f, 1.4f, 0}).y, 1, 0.01f);
+  // The mean of all.
+  EXPECT_NEAR(look_up(&TextureMaps::texture, path("a.tex"), {0.5f, 0.5f, 0}, 1).x, 0.5f, 0.05f);
+}
+
+TEST_F(Maps, an_image_may_be_written_anew) {
+  for (int size : {16, 64, 32}) {
+    std::string source = image("a.exr", size, size, ramp);
+    ASSERT_EQ(make_texture(source, path("a.tex"), {}), "");
+    EXPECT_EQ(OIIO::ImageInput::open(path("a.tex"))->spec().width, size);
+  }
+}
+
+/// The colour of a direction: exact where an environment map is a smooth function of it.
+Color of_direction(Vec3 d) {
+  return Color(0.5f) + 0.5f * glm::normalize(d);
+}
+
+const Vec3 kDirections[] = {{1, 0, 0},        {0, 1, 0},      {0, 0, 1},       {-1, 0, 0},
+                            {0, -1, 0},       {0, 0, -1},     {1, 1, 1},       {-1, 2, .5f},
+                            {.3f, -.2f, 1},   {.1f, .2f, -3}, {1, .99f, -.2f}, {-.5f, -.5f, .51f},
+                            {-1, .001f, .1f}, {1, -.001f, 0}};
+
+TEST_F(Maps, latlong_environments_point_where_the_image_says) {
+  std::string source = image("sky.exr", 256, 128, [](float s, float t) {
+    float lon = s * 2 * kPi, lat = (0.5f - t) * kPi;
+    return of_direction({std::cos(lon) * std::cos(lat), std::sin(lon) * std::cos(lat), std::sin(lat)});
+  });
+  ASSERT_EQ(make_latlong(source, path("sky.env"), {"periodic", "clamp", "box"}), "");
+  for (Vec3 d : kDirections) {
+    Color c = look_up(&TextureMaps::environment, path("sky.env"), d), want = of_direction(d);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(c[i], want[i], 0.01f) << d.x << " " << d.y << " " << d.z;
+  }
+}
+
+TEST_F(Maps, six_faces_become_one_environment) {
+  // Seen from the middle, with 95 degrees: forward, up, right.
+  const Vec3 axes[6][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                           {{0, 1, 0}, {0, 0, -1}, {1, 0, 0}}, {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}},
+                           {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},  {{0, 0, -1}, {0, 1, 0}, {-1, 0, 0}}};
+  float wide = std::tan(95 * kPi / 360);
+  std::array<std::string, 6> faces;
+  for (size_t i = 0; i < 6; ++i)
+    faces[i] = image("face" + std::to_string(i) + ".exr", 64, 64, [&](float s, float t) {
+      return of_direction(axes[i][0] + axes[i][1] * (wide * (1 - 2 * t)) + axes[i][2] * (wide * (2 * s - 1)));
+    });
+  ASSERT_EQ(make_cube_environment(faces, path("cube.env"), 95, {"periodic", "clamp", "box"}), "");
+  for (Vec3 d : kDirections) {
+    Color c = look_up(&TextureMaps::environment, path("cube.env"), d), want = of_direction(d);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(c[i], want[i], 0.015f) << d.x << " " << d.y << " " << d.z;
+  }
+}
+
+TEST_F(Maps, what_cannot_be_made_is_said_and_leaves_nothing) {
+  EXPECT_THAT(make_texture(path("none.tif"), path("a.tex"), {}), HasSubstr("cannot read"));
+  std::string source = image("a.exr", 8, 8, ramp);
+  EXPECT_THAT(make_texture(source, path("no/folder/a.tex"), {}), HasSubstr("cannot make"));
+  EXPECT_THAT(make_shadow(source, path("a.shd")), HasSubstr("lacks the matrix worldtocamera"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory_), {}), 1);
+}
+
+TEST_F(Maps, requests_make_maps_and_name_mistakes) {
+  auto messages = [&](const std::string& rib) {
+    slvm::SourceManager sources;
+    slvm::Diagnostics diagnostics;
+    Renderer renderer(sources, diagnostics);
+    renderer.read_text("scene.rib", rib);
+    renderer.finish();
+    return format_diagnostics(diagnostics, sources);
+  };
+  std::string source = image("a.exr", 8, 8, ramp);
+  EXPECT_EQ(messages("Option \"searchpath\" \"texture\" \"" + directory_.string() +
+                     "\" MakeTexture \"a.exr\" \"" + path("a.tex") +
+                     "\" \"periodic\" \"black\" \"gaussian\" 1 1"),
+            "");
+  EXPECT_THAT(messages("MakeLatLongEnvironment \"" + source + "\" \"" + path("a.env") + "\" \"box\" 2 3"),
+              HasSubstr("swidth and twidth have no effect"));
+  EXPECT_TRUE(fs::exists(path("a.tex")));
+  EXPECT_THAT(messages("MakeTexture \"" + source + "\" \"b\" \"round\" \"black\" \"box\" 1 1"),
+              HasSubstr("MakeTexture: unknown wrap \"round\"; known are black, periodic, clamp"));
+  EXPECT_THAT(messages("MakeLatLongEnvironment \"" + source + "\" \"b\" \"bax\" 1 1"),
+              HasSubstr("MakeLatLongEnvironment: unknown filter \"bax\"; known are box"));
+  EXPECT_THAT(messages("MakeCubeFaceEnvironment \"a\" \"a\" \"a\" \"a\" \"a\" \"a\" \"b\" 80 \"box\" 1 1"),
+              HasSubstr("the faces need 90 degrees or a little more, found 80"));
+  EXPECT_THAT(messages("MakeShadow \"nowhere.z\" \"b\""), HasSubstr("MakeShadow: cannot read \"nowhere.z\""));
+}
+
+TEST_F(Maps, missing_maps_are_found_under_other_names) {
+  image("wood.tif", 8, 8, ramp);
+  std::vector<std::string> folders{directory_.string()};
+  for (const char* name :
+       {"wood.tif", "wood.tx", "wood.tex", "wood", "/net/show/maps/wood.tx", "C:\\maps\\wood.tif"})
+    EXPECT_EQ(find_image(name, folders), path("wood.tif")) << name;
+  EXPECT_FALSE(find_image("stone.tx", folders));
+  EXPECT_FALSE(find_image("", folders));
+  EXPECT_NEAR(look_up(&TextureMaps::texture, "wood.tx", {0.5f, 0.5f, 0}).z, 0.5f, 1e-3f);
+  EXPECT_EQ(problem_, "");
+  EXPECT_EQ(replaced_["wood.tx"], path("wood.tif"));
+  look_up(&TextureMaps::texture, "wood.tif", {0.5f, 0.5f, 0});
+  EXPECT_TRUE(replaced_.empty());
+}
+
+TEST_F(Maps, a_rendered_depth_becomes_a_shadow_map_and_a_mask) {
+  auto run = [&](const std::string& rib) {
+    slvm::SourceManager sources;
+    slvm::Diagnostics diagnostics;
+    Renderer renderer(sources, diagnostics);
+    renderer.read_text("scene.rib", rib);
+    renderer.finish();
+    return format_diagnostics(diagnostics, sources);
+  };
+  std::string head = "Format 16 16 1 PixelFilter \"box\" 1 1 ";
+  EXPECT_EQ(run(head + "PixelSamples 2 2 Hider \"hidden\" \"int jitter\" 0 \"int subpixel\" 1 Display \"" +
+                path("d.z") +
+                "\" \"zfile\" \"z\" WorldBegin Translate 0 0 3 Disk 0 .5 360 WorldEnd MakeShadow \"" +
+                path("d.z") + "\" \"" + path("d.shd") + "\""),
+            "");
+  // Of a far wall the mask shows what is behind the disk, of a near one nothing.
+  auto alpha = [&](const std::string& parameters, const char* z, int x, int y) {
+    EXPECT_EQ(run(head + "PixelSamples 2 2 Hider \"depthmask\" \"zfile\" \"" + path("d.shd") + "\" " +
+                  parameters + " Display \"" + path("out.exr") +
+                  "\" \"openexr\" \"rgba\" WorldBegin Translate 0 0 " + z +
+                  " Polygon \"P\" [-9 -9 0 9 -9 0 9 9 0 -9 9 0] WorldEnd"),
+              "");
+    OIIO::ImageBuf out(path("out.exr"));
+    out.read(0, 0, true); // not from the cache, which knows the last one
+    return out.getchannel(x, y, 0, 3);
+  };
+  EXPECT_EQ(alpha("", "5", 8, 8), 1);
+  EXPECT_EQ(alpha("", "5", 1, 8), 0);
+  EXPECT_EQ(alpha("", "2", 8, 8), 0);
+  EXPECT_EQ(alpha("\"reversesign\" 1", "5", 8, 8), 0);
+  EXPECT_EQ(alpha("\"reversesign\" 1", "5", 1, 8), 1);
+  EXPECT_EQ(alpha("\"depthbias\" -1", "2.5", 8, 8), 1);
+  EXPECT_THAT(
+      run("Hider \"depthmask\" \"zfile\" \"nowhere.z\" Display \"x\" \"null\" \"rgb\" WorldBegin WorldEnd"),
+      HasSubstr("Hider: \"nowhere.z\": no such file in the texture search path"));
+}
+
+} // namespace
+} // namespace render::testing
