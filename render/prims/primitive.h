@@ -31,8 +31,8 @@ struct PrimitiveState {
 struct Primitive {
   std::shared_ptr<const PrimitiveState> state;
   std::shared_ptr<const Geometry> geometry; ///< when the shutter opens
-  MotionShapes deformation;                 ///< from time 0 to 1; empty: it keeps its shape
   std::vector<PatchVar> vars;
+  MotionShapes deformation = {}; ///< from time 0 to 1; empty: it keeps its shape
 
   const Attributes& attributes() const { return *state->attributes; }
   /// Box of a part in camera space, displacement and motion included. Points go in straight lines: what holds
