@@ -282,6 +282,11 @@ void Interpreter::option(const RequestCall& call) {
     }
     options_.named[category + ":" + value->first] = value->second;
     if (in_world_) scene_.options.named[category + ":" + value->first] = value->second;
+    if (category == "statistics" && value->first != "endofframe")
+      warn_once(
+          "Option statistics " + value->first, p.where, "rib-unsupported",
+          fmt::format("Option \"statistics\" \"{}\" has no effect; slrender --statisticsfile writes a file",
+                      value->first));
     if (category == "shutter" && value->first == "offset" && value->second.numbers.size() == 1)
       options_.shutter_offset = value->second.numbers[0];
   }
