@@ -50,6 +50,7 @@ public:
     sampling_.moving = std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) {
       return !p.state->motion.empty() || !p.deformation.empty();
     });
+    sampling_.camera = &camera_;
     if (camera_.has_lens()) sampling_.lens = &camera_;
     sampling_.mask = settings.mask;
     sampling_.mask_scale = {1 / static_cast<float>(options_.xres), 1 / static_cast<float>(options_.yres)};

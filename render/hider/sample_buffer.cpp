@@ -73,6 +73,7 @@ SamplingSettings SamplingSettings::from(const Options& o, const std::vector<AovC
   s.depth_threshold = o.depth_threshold;
   s.near_plane = o.near_plane;
   s.far_plane = o.far_plane;
+  s.clipping_planes = o.clipping_planes;
   return s;
 }
 
@@ -166,8 +167,11 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
   auto n = static_cast<float>(pattern_.strata());
   bool still = grid.times.empty();
   Vec3 now[4], next[4];
-  for (size_t c = 0; c < 4; ++c)
+  float defocus[4] = {};
+  for (size_t c = 0; c < 4; ++c) {
     now[c] = next[c] = grid.position[corner[c]];
+    if (lens) defocus[c] = lens->defocus(now[c].z);
+  }
   for (int s = 0; s < pattern_.strata(); ++s) {
     float from = static_cast<float>(s) / n, to = static_cast<float>(s + 1) / n;
     Box box;
@@ -196,7 +200,7 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
         Vec3 p[4];
         for (size_t c = 0; c < 4; ++c) {
           p[c] = still ? now[c] : grid.at(corner[c], pattern_.time(index));
-          if (lens) p[c] += Vec3(lens_[index] * lens->defocus(p[c].z), 0);
+          if (lens) p[c] += Vec3(lens_[index] * (still ? defocus[c] : lens->defocus(p[c].z)), 0);
         }
         float weights[3];
         Quad::Part part =
@@ -209,9 +213,15 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
   }
 }
 
-bool SampleBuffer::masked(size_t index, float z) const {
-  if (!settings_.mask) return false;
-  return settings_.mask->hides(pattern_.at(index) * settings_.mask_scale, z);
+bool SampleBuffer::removed(size_t index, float z) const {
+  if (settings_.mask && settings_.mask->hides(pattern_.at(index) * settings_.mask_scale, z)) return true;
+  if (settings_.clipping_planes.empty()) return false;
+  Vec2 at = pattern_.at(index);
+  if (settings_.lens) at -= lens_[index] * settings_.lens->defocus(z);
+  Vec3 p = settings_.camera->unproject(at, z);
+  for (const ClippingPlane& plane : settings_.clipping_planes)
+    if (plane.hides(p)) return true;
+  return false;
 }
 
 void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3],
@@ -219,7 +229,7 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
   Sample& sample = samples_[index];
   if (z >= (midpoint_ ? sample.second : sample.z) || z < settings_.near_plane || z > settings_.far_plane)
     return;
-  if (masked(index, z)) return;
+  if (removed(index, z)) return;
   // corners[0] is the micropolygon's own corner, whose colour it has throughout without smooth shading.
   Color Ci = grid.Ci[corners[0]], Oi = grid.Oi[corners[0]];
   if (grid.smooth) {

@@ -20,8 +20,10 @@ struct SamplingSettings {
   Color opacity_threshold{0.996f};
   Color depth_threshold{1.0f}; ///< a transparent surface as opaque as this has a depth
   float near_plane = 0, far_plane = kInfinity;
-  bool moving = false;          ///< grids may move
-  const Camera* lens = nullptr; ///< null: all is in focus
+  bool moving = false;            ///< grids may move
+  const Camera* lens = nullptr;   ///< null: all is in focus
+  const Camera* camera = nullptr; ///< for clipping_planes
+  std::vector<ClippingPlane> clipping_planes;
   const DepthMask* mask = nullptr;
   Vec2 mask_scale{1.0f}; ///< from raster to parts of the frame
 
@@ -64,7 +66,8 @@ private:
   void draw_moving(const ShadedGrid& grid, size_t k);
   void hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
            float z);
-  bool masked(size_t index, float z) const;
+  /// Left out by a clipping plane or by the depth mask.
+  bool removed(size_t index, float z) const;
   SampleResult composite(size_t index);
 
   SamplingSettings settings_;

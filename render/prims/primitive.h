@@ -31,10 +31,10 @@ struct PrimitiveState {
 struct Primitive {
   std::shared_ptr<const PrimitiveState> state;
   std::shared_ptr<const Geometry> geometry; ///< when the shutter opens
-  MotionShapes deformation;                 ///< from time 0 to 1; empty: it keeps its shape
   std::vector<PatchVar> vars;
   /// The part of the shaders' u and v that this surface is: patches of a mesh share one square.
   UvRect uv = {};
+  MotionShapes deformation = {}; ///< from time 0 to 1; empty: it keeps its shape
 
   const Attributes& attributes() const { return *state->attributes; }
   /// Box of a part in camera space, displacement and motion included. Points go in straight lines: what holds

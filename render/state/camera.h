@@ -26,6 +26,13 @@ public:
     return {(p.x * m[0] + p.y * m[4] + p.z * m[8] + m[12]) / w,
             (p.x * m[1] + p.y * m[5] + p.z * m[9] + m[13]) / w};
   }
+  /// The point at depth z that project() sends to a place of the image.
+  Vec3 unproject(Vec2 raster, float z) const {
+    const auto& m = to_raster_.m;
+    float w = z * m[11] + m[15], x = raster.x * w - z * m[8] - m[12], y = raster.y * w - z * m[9] - m[13];
+    float determinant = m[0] * m[5] - m[1] * m[4];
+    return {(x * m[5] - y * m[4]) / determinant, (y * m[0] - x * m[1]) / determinant, z};
+  }
   bool perspective() const { return perspective_; }
   /// The eye: the origin (also for orthographic cameras, where I is (0,0,z)).
   Vec3 incident(Vec3 p) const { return perspective_ ? p : Vec3(0, 0, p.z); }

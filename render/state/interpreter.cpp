@@ -41,7 +41,8 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
 
     set(kFormat, &I::format), set(kFrameAspectRatio, &I::frame_aspect_ratio);
     set(kScreenWindow, &I::screen_window), set(kCropWindow, &I::crop_window);
-    set(kProjection, &I::projection), set(kClipping, &I::clipping), set(kShutter, &I::shutter);
+    set(kProjection, &I::projection), set(kClipping, &I::clipping), set(kClippingPlane, &I::clipping_plane),
+        set(kShutter, &I::shutter);
     set(kPixelSamples, &I::pixel_samples), set(kPixelFilter, &I::pixel_filter), set(kExposure, &I::exposure);
     set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display),
         set(kDisplayChannel, &I::display_channel);

@@ -159,6 +159,7 @@ private:
   void crop_window(const RequestCall&);
   void projection(const RequestCall&);
   void clipping(const RequestCall&);
+  void clipping_plane(const RequestCall&);
   void shutter(const RequestCall&);
   void pixel_samples(const RequestCall&);
   void pixel_filter(const RequestCall&);

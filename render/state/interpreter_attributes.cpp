@@ -23,8 +23,14 @@ void Interpreter::attribute(const RequestCall& call) {
     }
     edit().named[category + ":" + value->first] = value->second;
     if (category == "cull" && value->second.numbers.size() == 1) {
-      if (value->first == "hidden") edit().cull_hidden = value->second.numbers[0] != 0;
-      if (value->first == "backfacing") edit().cull_backfacing = value->second.numbers[0] != 0;
+      if (value->first == "hidden")
+        edit().cull_hidden = value->second.numbers[0] != 0;
+      else if (value->first == "backfacing")
+        edit().cull_backfacing = value->second.numbers[0] != 0;
+      else
+        warn_once("Attribute cull " + value->first, p.where, "rib-unsupported",
+                  fmt::format("Attribute \"cull\" \"{}\" has no effect; known are hidden and backfacing",
+                              value->first));
     }
     if (category == "identifier" && value->first == "name" && !value->second.strings.empty())
       edit().name = value->second.strings[0];

@@ -82,6 +82,16 @@ void Interpreter::clipping(const RequestCall& call) {
   options_.far_plane = far;
 }
 
+void Interpreter::clipping_plane(const RequestCall& call) {
+  auto normal = slvm::transform_normal(ctm_, {call.number(3), call.number(4), call.number(5)});
+  ClippingPlane plane{transform_point(ctm_, Vec3(call.number(0), call.number(1), call.number(2))),
+                      {normal[0], normal[1], normal[2]}};
+  if (glm::dot(plane.normal, plane.normal) > 0)
+    options_.clipping_planes.push_back(plane);
+  else
+    error(call, "the normal has no length");
+}
+
 void Interpreter::shutter(const RequestCall& call) {
   options_.shutter_open = call.number(0);
   options_.shutter_close = call.number(1);
@@ -272,6 +282,11 @@ void Interpreter::option(const RequestCall& call) {
     }
     options_.named[category + ":" + value->first] = value->second;
     if (in_world_) scene_.options.named[category + ":" + value->first] = value->second;
+    if (category == "statistics" && value->first != "endofframe")
+      warn_once(
+          "Option statistics " + value->first, p.where, "rib-unsupported",
+          fmt::format("Option \"statistics\" \"{}\" has no effect; slrender --statisticsfile writes a file",
+                      value->first));
     if (category == "shutter" && value->first == "offset" && value->second.numbers.size() == 1)
       options_.shutter_offset = value->second.numbers[0];
   }

@@ -41,6 +41,12 @@ struct PixelFilter {
   float xwidth = 2, ywidth = 2;
 };
 
+/// What is on the side its normal points to is not drawn. Camera space.
+struct ClippingPlane {
+  Vec3 point, normal;
+  bool hides(Vec3 p) const { return glm::dot(p - point, normal) > 0; }
+};
+
 /// Which depth a pixel of a z image gets: of its own samples the nearest, the farthest, their mean, or the
 /// nearest middle between the first two surfaces (Woo, 1992).
 enum class DepthFilter : uint8_t { kMin, kMax, kAverage, kMidpoint };
@@ -86,6 +92,7 @@ struct Options {
   ProjectionKind projection = ProjectionKind::kOrthographic;
   float fov = 90;
   float near_plane = 0.01f, far_plane = 1e30f;
+  std::vector<ClippingPlane> clipping_planes;
   /// The lens is focal_length / fstop wide; a pinhole by default.
   float fstop = kInfinity, focal_length = 0, focal_distance = kInfinity;
   float shutter_open = 0, shutter_close = 0, shutter_offset = 0;

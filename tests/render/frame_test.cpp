@@ -82,6 +82,24 @@ TEST(Frame, near_clipping_opens_a_sphere) {
   EXPECT_NEAR(r.z(10, 10), 6, 0.01f); // the inside of its far half
 }
 
+TEST(Frame, clipping_planes_cut_through_surfaces) {
+  std::string scene =
+      " PixelSamples 8 8 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 40 Translate 0 0 5 "
+      "ClippingPlane .25 0 0 1 0 0 ClippingPlane 0 0 0 0 0 -1 WorldBegin Sphere 1 -1 1 360 WorldEnd";
+  Rendered r = render_text("Format 40 40 1" + scene);
+  EXPECT_EQ(r.messages, "");
+  // The near half is gone: the far inside is seen, up to x = .25 at its depth.
+  EXPECT_NEAR(r.z(20, 20), 6, 0.02f);
+  EXPECT_EQ(r.alpha(14, 20), 1);
+  double edge = 20 + 20 * 0.25 / std::tan(20 * M_PI / 180) / (5 + std::sqrt(1 - 0.0625));
+  int x = static_cast<int>(edge);
+  EXPECT_EQ(r.alpha(x - 1, 20), 1);
+  EXPECT_NEAR(r.alpha(x, 20), edge - x, 0.06);
+  EXPECT_EQ(r.alpha(x + 1, 20), 0);
+  EXPECT_NE(messages_of("ClippingPlane 0 0 0 0 0 0").find("ClippingPlane: the normal has no length"),
+            std::string::npos);
+}
+
 TEST(Frame, a_floor_through_the_eye_reaches_the_picture_edges) {
   Rendered r =
       render_text("Format 60 60 1 PixelFilter \"box\" 1 1 Projection \"perspective\" \"fov\" 60 WorldBegin "

@@ -183,8 +183,12 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
   EXPECT_THAT(messages_of("Attribute \"trace\" \"bias\" .1"),
               HasSubstr("Attribute \"trace\" has no effect yet"));
-  EXPECT_THAT(messages_of("Option \"statistics\" \"endofframe\" 1"),
-              HasSubstr("Option \"statistics\" has no effect"));
+  EXPECT_THAT(messages_of("Option \"bucket\" \"order\" \"circle\""),
+              HasSubstr("Option \"bucket\" has no effect"));
+  EXPECT_THAT(messages_of("Option \"statistics\" \"filename\" \"a\""),
+              HasSubstr("Option \"statistics\" \"filename\" has no effect; slrender --statisticsfile"));
+  EXPECT_THAT(messages_of("Attribute \"cull\" \"int x\" 1"),
+              HasSubstr("Attribute \"cull\" \"x\" has no effect; known are hidden and backfacing"));
   EXPECT_THAT(messages_of("Hider \"photon\""), HasSubstr("Hider \"photon\" is not supported yet"));
 }
 
