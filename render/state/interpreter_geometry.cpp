@@ -83,6 +83,11 @@ bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam
       P.emplace_back(n[k] / w, n[k + 1] / w, n[k + 2] / w);
     }
     vars.erase(vars.begin() + static_cast<std::ptrdiff_t>(i));
+    for (Vec3 p : P)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        error(call, "a point is not finite; the primitive is skipped");
+        return false;
+      }
     return true;
   }
   // A wrong count was reported with the variable.

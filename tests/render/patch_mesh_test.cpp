@@ -171,6 +171,8 @@ TEST(PatchMesh, messages) {
               HasSubstr("nv is 5, which steps of 3 do not divide; the points left over are not used"));
   EXPECT_THAT(message("PatchMesh \"quadratic\" 4 \"periodic\" 4 \"periodic\""),
               HasSubstr("unknown type \"quadratic\""));
+  EXPECT_THAT(message("Patch \"bilinear\" \"Pw\" [0 0 0 0 1 0 0 1 0 1 0 1 1 1 0 1]"),
+              HasSubstr("error: Patch: a point is not finite; the primitive is skipped"));
   EXPECT_THAT(message("Geometry \"cube\""), HasSubstr("unknown geometry \"cube\"; known is \"teapot\""));
 }
 
