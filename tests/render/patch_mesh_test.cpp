@@ -161,6 +161,13 @@ TEST(PatchMesh, variables_of_every_class) {
   EXPECT_NEAR(value(cubic.primitives[0], "y", 0.2f, 0.9f), 0.6f, 1e-6f);
 }
 
+TEST(PatchMesh, heights_stand_on_the_unit_square) {
+  Scene s = scene_of("PatchMesh \"bilinear\" 3 \"nonperiodic\" 2 \"nonperiodic\" \"Pz\" [0 1 2 3 4 5]");
+  ASSERT_EQ(s.primitives.size(), 2u);
+  expect_near(at(s.primitives[1], 0.5f, 0).P, {0.75f, 0, 1.5f});
+  expect_near(at(s.primitives[1], 1, 1).P, {1, 1, 5});
+}
+
 TEST(PatchMesh, messages) {
   auto message = [](const std::string& rib) { return messages_of("WorldBegin " + rib + " WorldEnd"); };
   EXPECT_THAT(message("PatchMesh \"bicubic\" 3 \"periodic\" 4 \"periodic\" \"P\" [0 0 0]"),
