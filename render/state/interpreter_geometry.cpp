@@ -191,10 +191,11 @@ void Interpreter::patch(const RequestCall& call) {
   size_t corners = size(d[0].corners(), d[1].corners()), points = size(d[0].points, d[1].points);
   std::vector<TypedParam> vars =
       primitive_vars(call, {size(d[0].patches(), d[1].patches()), corners, points, corners});
+  std::vector<float> weights = point_weights(vars);
   std::vector<Vec3> P;
   expand_heights(d[0].points, vars);
   if (!take_positions(call, vars, P)) return;
-  add_patch_mesh(d[0], d[1], P, vars, primitive_state(), scene_.primitives);
+  add_patch_mesh(d[0], d[1], P, vars, primitive_state(), scene_.primitives, weights);
 }
 
 /// Whether argument `i` says "periodic". Nothing, with a message: it says neither that nor "nonperiodic".
