@@ -85,6 +85,11 @@ void Interpreter::trim_curve(const RequestCall& call) {
       return;
     }
   }
+  for (float w : call.numbers(8))
+    if (!(w > 0)) {
+      error_at(call.arguments[8].where, call, fmt::format("a weight is {}; they must be positive", w));
+      return;
+    }
   auto region = std::make_shared<TrimRegion>();
   size_t curve = 0, knot = 0, point = 0;
   for (int count : ncurves) {
