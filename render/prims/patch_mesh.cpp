@@ -1,6 +1,7 @@
 // Patch meshes.
 #include "render/prims/patch_mesh.h"
 
+#include "render/prims/nurbs.h"
 #include "render/prims/patches.h"
 #include "render/prims/typed_vars.h"
 
@@ -75,17 +76,48 @@ std::shared_ptr<const Geometry> patch_geometry(std::span<const Vec3> P, const Me
   return make_bicubic(control);
 }
 
+/// A rational patch is a NURBS of one knot interval. Null: a weight of its Bezier form is not positive.
+std::shared_ptr<const Geometry> rational_geometry(std::span<const Vec3> P, std::span<const float> weights,
+                                                  const MeshPatch& patch, const MeshDirection& u,
+                                                  const MeshDirection& v) {
+  std::vector<size_t> indices;
+  if (u.cubic)
+    for (size_t i : patch.bicubic_points())
+      indices.push_back(i);
+  else
+    for (size_t i : patch.bilinear_points())
+      indices.push_back(i);
+  std::vector<glm::vec4> control;
+  for (size_t i : indices)
+    control.emplace_back(P[i] * weights[i], weights[i]);
+  for (int c = 0; u.cubic && c < 4; ++c)
+    convert_to_bezier(u.basis, v.basis, &control[0][c], 4);
+  int order = u.order();
+  constexpr float kKnots[] = {0, 0, 0, 0, 1, 1, 1, 1};
+  std::span<const float> knots(kKnots + 4 - order, static_cast<size_t>(2 * order));
+  auto basis = NurbsBasis::make(order, order, knots, 0, 1, "u");
+  auto surface = std::make_shared<NurbsSurface>();
+  surface->u = surface->v = *basis;
+  for (glm::vec4 p : control) {
+    if (!(p.w > 0)) return nullptr;
+    surface->points.emplace_back(p);
+  }
+  return make_nurbs({surface, {{0, 0}, {1, 0}, {0, 1}, {1, 1}}, 0, 0});
+}
+
 } // namespace
 
 void add_patch_mesh(const MeshDirection& u, const MeshDirection& v, std::span<const Vec3> P,
                     std::span<const TypedParam> vars, const std::shared_ptr<const PrimitiveState>& state,
-                    std::vector<Primitive>& out) {
+                    std::vector<Primitive>& out, std::span<const float> weights) {
+  bool rational = std::any_of(weights.begin(), weights.end(), [&](float w) { return w != weights[0]; });
   for (int j = 0; j < v.patches(); ++j)
     for (int i = 0; i < u.patches(); ++i) {
       MeshPatch patch(u, v, i, j);
       Primitive& primitive = out.emplace_back();
       primitive.state = state;
-      primitive.geometry = patch_geometry(P, patch, u, v);
+      if (rational) primitive.geometry = rational_geometry(P, weights, patch, u, v);
+      if (!primitive.geometry) primitive.geometry = patch_geometry(P, patch, u, v);
       primitive.uv = patch.uv();
       for (const TypedParam& var : vars)
         primitive.vars.push_back(patch_var(var, patch, u, v));

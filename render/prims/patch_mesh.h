@@ -26,10 +26,11 @@ struct MeshDirection {
   bool even() const { return (periodic ? points : points - order()) % step() == 0; }
 };
 
-/// Appends the patches. `P` and vertex variables are points x points, varying and facevarying ones corners x
-/// corners, uniform ones patches x patches, all u fastest.
+/// Appends the patches. With `weights`, one for each point, they are rational: `P` holds the points after
+/// division. `P` and vertex variables are points x points, varying and facevarying ones corners x corners,
+/// uniform ones patches x patches, all u fastest.
 void add_patch_mesh(const MeshDirection& u, const MeshDirection& v, std::span<const Vec3> P,
                     std::span<const TypedParam> vars, const std::shared_ptr<const PrimitiveState>& state,
-                    std::vector<Primitive>& out);
+                    std::vector<Primitive>& out, std::span<const float> weights = {});
 
 } // namespace render

@@ -58,4 +58,13 @@ PatchVar bicubic_var(const TypedParam& source, const std::array<size_t, 16>& ind
   return var;
 }
 
+std::vector<float> point_weights(std::span<const TypedParam> vars) {
+  std::vector<float> out;
+  for (const TypedParam& v : vars)
+    if (v.declaration.name == "Pw" && v.declaration.hpoint)
+      for (size_t i = 3; i < v.numbers.size(); i += 4)
+        out.push_back(v.numbers[i]);
+  return out;
+}
+
 } // namespace render

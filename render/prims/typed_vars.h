@@ -27,4 +27,7 @@ PatchVar bilinear_var(const TypedParam& source, const std::array<size_t, 4>& ind
 PatchVar bicubic_var(const TypedParam& source, const std::array<size_t, 16>& indices,
                      const CubicBasis& ubasis, const CubicBasis& vbasis);
 
+/// The weights that "Pw" gives the points; empty: all are one.
+std::vector<float> point_weights(std::span<const TypedParam> vars);
+
 } // namespace render

@@ -26,6 +26,23 @@ size_t class_size(const ClassSizes& sizes, StorageClass c) {
   return 1;
 }
 
+/// "Pz", the heights of a field, becomes "P": x and y run from 0 to 1 with u and v (RISpec 3.2, 5.3).
+void expand_heights(int columns, std::vector<TypedParam>& vars) {
+  for (TypedParam& v : vars) {
+    if (v.declaration.name != "Pz" || v.declaration.type != slvm::Type::kFloat) continue;
+    std::vector<float> heights = std::move(v.numbers);
+    auto width = static_cast<size_t>(columns), rows = heights.size() / width;
+    v.numbers.clear();
+    for (size_t k = 0; k < heights.size(); ++k) {
+      v.numbers.push_back(static_cast<float>(k % width) / static_cast<float>(width - 1));
+      v.numbers.push_back(static_cast<float>(k / width) / static_cast<float>(rows - 1));
+      v.numbers.push_back(heights[k]);
+    }
+    v.declaration.name = "P";
+    v.declaration.type = slvm::Type::kPoint;
+  }
+}
+
 GeometryResult make_quadric(const RequestCall& c) {
   switch (c.id) {
   case RequestId::kSphere: return make_sphere(c.number(0), c.number(1), c.number(2), c.number(3));
@@ -83,10 +100,16 @@ bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam
       P.emplace_back(n[k] / w, n[k + 1] / w, n[k + 2] / w);
     }
     vars.erase(vars.begin() + static_cast<std::ptrdiff_t>(i));
+    for (Vec3 p : P)
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+        error(call, "a point is not finite; the primitive is skipped");
+        return false;
+      }
     return true;
   }
   // A wrong count was reported with the variable.
-  if (!call.find_param("P") && !call.find_param("Pw")) error(call, "\"P\" is missing");
+  if (!call.find_param("P") && !call.find_param("Pw") && !call.find_param("Pz"))
+    error(call, "\"P\" is missing");
   return false;
 }
 
@@ -175,9 +198,11 @@ void Interpreter::patch(const RequestCall& call) {
   size_t corners = size(d[0].corners(), d[1].corners()), points = size(d[0].points, d[1].points);
   std::vector<TypedParam> vars =
       primitive_vars(call, {size(d[0].patches(), d[1].patches()), corners, points, corners});
+  std::vector<float> weights = point_weights(vars);
   std::vector<Vec3> P;
+  expand_heights(d[0].points, vars);
   if (!take_positions(call, vars, P)) return;
-  add_patch_mesh(d[0], d[1], P, vars, primitive_state(), scene_.primitives);
+  add_patch_mesh(d[0], d[1], P, vars, primitive_state(), scene_.primitives, weights);
 }
 
 /// Whether argument `i` says "periodic". Nothing, with a message: it says neither that nor "nonperiodic".

@@ -1,5 +1,6 @@
 // NuPatch and TrimCurve.
 #include "render/prims/nurbs_pieces.h"
+#include "render/prims/typed_vars.h"
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -10,16 +11,6 @@
 namespace render {
 
 namespace {
-
-/// Weights that Pw gives; empty: all are one.
-std::vector<float> weights_of(std::span<const TypedParam> vars) {
-  std::vector<float> out;
-  for (const TypedParam& v : vars)
-    if (v.declaration.name == "Pw" && v.declaration.hpoint)
-      for (size_t i = 3; i < v.numbers.size(); i += 4)
-        out.push_back(v.numbers[i]);
-  return out;
-}
 
 size_t sum_of(std::span<const int> counts) {
   size_t sum = 0;
@@ -44,7 +35,7 @@ void Interpreter::nu_patch(const RequestCall& call) {
   size_t points = size(u->points(), v->points()), corners = size(u->intervals() + 1, v->intervals() + 1);
   std::vector<TypedParam> vars =
       primitive_vars(call, {size(u->intervals(), v->intervals()), corners, points, corners});
-  std::vector<float> weights = weights_of(vars);
+  std::vector<float> weights = point_weights(vars);
   for (float w : weights)
     if (!(w > 0)) {
       error(call, fmt::format("a weight is {}; they must be positive", w));
@@ -94,6 +85,11 @@ void Interpreter::trim_curve(const RequestCall& call) {
       return;
     }
   }
+  for (float w : call.numbers(8))
+    if (!(w > 0)) {
+      error_at(call.arguments[8].where, call, fmt::format("a weight is {}; they must be positive", w));
+      return;
+    }
   auto region = std::make_shared<TrimRegion>();
   size_t curve = 0, knot = 0, point = 0;
   for (int count : ncurves) {

@@ -90,6 +90,30 @@ TEST(Dice, orientation_and_handedness) {
   EXPECT_EQ(outward(Diced(sphere(), Orientation::kRightHanded, mirrored), c), 1);
 }
 
+TEST(Dice, patches_of_a_mesh_share_the_parameter_square) {
+  Primitive p{nullptr, make_bilinear({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}), {}};
+  p.uv = {0.5f, 0.75f, 0, 0.5f};
+  Diced d(p, Orientation::kOutside, translation({0, 0, 5}));
+  EXPECT_FLOAT_EQ(d.number(Global::ku, 0), 0.5f);
+  EXPECT_FLOAT_EQ(d.number(Global::ku, 4), 0.75f);
+  EXPECT_FLOAT_EQ(d.number(Global::kv, 19), 0.5f);
+  EXPECT_FLOAT_EQ(d.number(Global::ks, 4), 0.75f);
+  EXPECT_FLOAT_EQ(d.number(Global::kdu, 0), 0.25f / 4);
+  // One patch is a quarter of the square wide: dPdu du is still the side of a micropolygon.
+  EXPECT_EQ(d.get(Global::kdPdu, 7), Vec3(4, 0, 0));
+  EXPECT_EQ(d.get(Global::kdPdv, 7), Vec3(0, 2, 0));
+}
+
+TEST(Dice, parameters_that_a_piece_brings_along_decide_texture_coordinates) {
+  Primitive p{nullptr, make_bilinear({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)}), {}};
+  p.vars.push_back({"u", slvm::Type::kFloat, 0, Interpolation::kBilinear, {0.25f, 0.5f, 0.25f, 0.5f}, {}});
+  p.vars.push_back({"v", slvm::Type::kFloat, 0, Interpolation::kBilinear, {0, 0, 0.5f, 0.5f}, {}});
+  Diced d(p, Orientation::kOutside, translation({0, 0, 5}));
+  EXPECT_FLOAT_EQ(d.number(Global::ku, 4), 0.5f);
+  EXPECT_FLOAT_EQ(d.number(Global::ks, 4), 0.5f);
+  EXPECT_FLOAT_EQ(d.number(Global::kt, 19), 0.5f);
+}
+
 TEST(Dice, normals_go_by_the_inverse_transpose) {
   // A slope squashed in x: the normal leans more to x.
   Primitive p{nullptr, make_bilinear({Vec3(0, 0, 0), Vec3(1, 0, 1), Vec3(0, 1, 0), Vec3(1, 1, 1)}), {}};

@@ -214,6 +214,8 @@ TEST(Nurbs, messages) {
               HasSubstr("TrimCurve: 'knot' takes 4 numbers, found 3"));
   EXPECT_THAT(message("TrimCurve [1] [1] [0 0 1] [0] [1] [2] [0 1] [0 1] [1 1]"),
               HasSubstr("TrimCurve: curve 1: order is 1"));
+  EXPECT_THAT(message("TrimCurve [1] [2] [0 0 1 1] [0] [1] [2] [0 1] [0 1] [1 0]"),
+              HasSubstr("TrimCurve: a weight is 0; they must be positive"));
 }
 
 } // namespace

@@ -161,6 +161,36 @@ TEST(PatchMesh, variables_of_every_class) {
   EXPECT_NEAR(value(cubic.primitives[0], "y", 0.2f, 0.9f), 0.6f, 1e-6f);
 }
 
+TEST(PatchMesh, weights_make_patches_rational) {
+  // A quarter circle as a rational cubic: its quadratic form raised by a degree.
+  std::string P = " \"Pw\" [";
+  for (int j = 0; j < 4; ++j) {
+    float h = static_cast<float>(j);
+    auto point = [&](double x, double y, double w) {
+      P += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(h * static_cast<float>(w)) +
+           " " + std::to_string(w) + " ";
+    };
+    double s = std::sqrt(0.5), w = (1 + 2 * s) / 3;
+    point(1, 0, 1), point((1 + 2 * s) / 3, 2 * s / 3, w), point(2 * s / 3, (1 + 2 * s) / 3, w),
+        point(0, 1, 1);
+  }
+  Scene s = scene_of("Patch \"bicubic\"" + P + "]");
+  for (float u : {0.0f, 0.2f, 0.5f, 0.9f}) {
+    EXPECT_NEAR(glm::length(Vec2(at(s.primitives[0], u, 0.5f).P)), 1, 1e-5f);
+    EXPECT_NEAR(at(s.primitives[0], u, 0.5f).P.z, 1.5f, 1e-5f);
+  }
+  Scene bilinear = scene_of("Patch \"bilinear\" \"Pw\" [0 0 0 1 3 0 0 3 0 1 0 1 3 3 0 3]");
+  // x(u) = 3u / (1 + 2u)
+  expect_near(at(bilinear.primitives[0], 0.5f, 0).P, {0.75f, 0, 0});
+}
+
+TEST(PatchMesh, heights_stand_on_the_unit_square) {
+  Scene s = scene_of("PatchMesh \"bilinear\" 3 \"nonperiodic\" 2 \"nonperiodic\" \"Pz\" [0 1 2 3 4 5]");
+  ASSERT_EQ(s.primitives.size(), 2u);
+  expect_near(at(s.primitives[1], 0.5f, 0).P, {0.75f, 0, 1.5f});
+  expect_near(at(s.primitives[1], 1, 1).P, {1, 1, 5});
+}
+
 TEST(PatchMesh, messages) {
   auto message = [](const std::string& rib) { return messages_of("WorldBegin " + rib + " WorldEnd"); };
   EXPECT_THAT(message("PatchMesh \"bicubic\" 3 \"periodic\" 4 \"periodic\" \"P\" [0 0 0]"),
@@ -171,6 +201,8 @@ TEST(PatchMesh, messages) {
               HasSubstr("nv is 5, which steps of 3 do not divide; the points left over are not used"));
   EXPECT_THAT(message("PatchMesh \"quadratic\" 4 \"periodic\" 4 \"periodic\""),
               HasSubstr("unknown type \"quadratic\""));
+  EXPECT_THAT(message("Patch \"bilinear\" \"Pw\" [0 0 0 0 1 0 0 1 0 1 0 1 1 1 0 1]"),
+              HasSubstr("error: Patch: a point is not finite; the primitive is skipped"));
   EXPECT_THAT(message("Geometry \"cube\""), HasSubstr("unknown geometry \"cube\"; known is \"teapot\""));
 }
 
