@@ -37,6 +37,10 @@ public:
     }
   }
   bool ruled() const override { return a_->ruled() && b_->ruled(); }
+  std::array<int, 2> coarsest() const override {
+    const std::array<int, 2> a = a_->coarsest(), b = b_->coarsest();
+    return {std::max(a[0], b[0]), std::max(a[1], b[1])};
+  }
 
 private:
   std::shared_ptr<const Geometry> a_, b_;

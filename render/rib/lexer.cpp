@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 namespace render {
@@ -54,6 +55,7 @@ bool Lexer::starts_number() const {
 }
 
 void Lexer::next(Token& token) {
+  before_ = {at_, line_start_, line_};
   if (!in_array_) skip_blanks();
   token.text.clear();
   token.number = 0;
@@ -89,6 +91,35 @@ void Lexer::next(Token& token) {
   }
   // A range never leaves its line: of a string over several lines the first character is marked.
   token.where.end = line_ == first_line ? column() : token.where.column + 1;
+}
+
+bool Lexer::read_data(const std::string& name, std::string& data) {
+  at_ = before_.at;
+  line_start_ = before_.line_start;
+  line_ = before_.line;
+  auto skip_line = [&] {
+    for (uint32_t line = line_; at_ < text_.size() && line_ == line;)
+      advance();
+  };
+  skip_line();
+  size_t begin = at_;
+  while (at_ < text_.size()) {
+    size_t line_end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+    std::string_view line = text_.substr(at_, line_end - at_);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    constexpr std::string_view kEnd = "ArchiveEnd";
+    if (line.starts_with(kEnd)) {
+      line.remove_prefix(kEnd.size());
+      line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+      if (line.starts_with("\"" + name + "\"")) {
+        data = text_.substr(begin, at_ - begin);
+        return true;
+      }
+    }
+    skip_line();
+  }
+  data = text_.substr(begin);
+  return false;
 }
 
 void Lexer::read_word(Token& token) {

@@ -14,6 +14,7 @@ public:
   /// `text` must outlive the lexer; `file` goes into every position.
   Lexer(std::string_view text, slvm::FileId file);
   void next(Token& token) override;
+  bool read_data(const std::string& name, std::string& data) override;
 
 private:
   void skip_blanks();
@@ -32,10 +33,16 @@ private:
   bool starts_number() const;
   uint32_t column() const { return static_cast<uint32_t>(at_ - line_start_) + 1; }
 
+  struct Position {
+    size_t at = 0, line_start = 0;
+    uint32_t line = 1;
+  };
+
   std::string_view text_;
   size_t at_ = 0;
   size_t line_start_ = 0;
   uint32_t line_ = 1;
+  Position before_; ///< where the last token's blanks began
   slvm::FileId file_;
   EncodedNames names_;
   size_t array_left_ = 0; ///< numbers left of an encoded array whose '[' was handed out

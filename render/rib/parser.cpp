@@ -38,6 +38,8 @@ private:
   bool parse_floats(const ArgumentInfo& info, std::vector<float>& out);
   template <class ParseOne> bool parse_array(const ArgumentInfo& info, bool bare_ok, ParseOne parse_one);
   bool parse_params();
+  bool data_follows() const;
+  bool read_data();
   bool parse_value(Param& param);
 
   TokenStream& tokens_;
@@ -69,7 +71,7 @@ void Parser::run() {
       continue;
     }
     take();
-    if (parse_request(*info_))
+    if (parse_request(*info_) && read_data())
       target_.request(call_);
     else
       recover();
@@ -267,7 +269,7 @@ bool Parser::parse_params() {
     take();
     if (!parse_value(param)) return false;
   }
-  if (token_.kind == TokenKind::kWord || token_.kind == TokenKind::kEnd) return true;
+  if (token_.kind == TokenKind::kWord || token_.kind == TokenKind::kEnd || data_follows()) return true;
   // A missing argument shifts the rest: Display "a.tif" "rgba" "compression" ["lzw"] has no type.
   if (token_.kind == TokenKind::kOpen && call_.params.empty() && !info_->arguments.empty() &&
       info_->arguments.back().kind == ArgumentKind::kString)
@@ -275,6 +277,24 @@ bool Parser::parse_params() {
         fmt::format("found '[' after \"{}\", which was taken for '{}'; an argument is missing before it",
                     call_.arguments.back().strings[0], info_->arguments.back().name));
   return fail_expected("a token string or the next request");
+}
+
+/// Whether this is an archive of another type, or encoded: its text is no concern of this parser (multipart
+/// RIB).
+bool Parser::data_follows() const {
+  if (call_.id != RequestId::kArchiveBegin) return false;
+  const Param* type = call_.find_param("Content-Type");
+  bool rib = !type || !type->is_string() || type->strings[0] == "application/rib";
+  return !rib || call_.find_param("Content-Transfer-Encoding");
+}
+
+bool Parser::read_data() {
+  call_.data.clear();
+  if (!data_follows()) return true;
+  bool complete = tokens_.read_data(call_.text(0), call_.data);
+  take();
+  return complete ||
+         fail(fmt::format("the data has no end; expected a line ArchiveEnd \"{}\"", call_.text(0)));
 }
 
 bool Parser::parse_value(Param& param) {

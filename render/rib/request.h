@@ -87,6 +87,8 @@ struct RequestCall {
   slvm::SourceRange where; ///< the request's name
   std::vector<Argument> arguments;
   std::vector<Param> params;
+  /// ArchiveBegin with content other than plain RIB: the bytes up to the line of its ArchiveEnd.
+  std::string data;
 
   const RequestInfo& info() const { return request_info(id); }
   bool has(int i) const { return arguments[i].present; }

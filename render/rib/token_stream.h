@@ -37,6 +37,10 @@ public:
   virtual ~TokenStream() = default;
   /// Replaces `token` by the next one; kEnd again and again at the end.
   virtual void next(Token& token) = 0;
+  /// Takes back the last token and moves what follows the token before it, from the next line on, into
+  /// `data`: everything up to a line `ArchiveEnd "name"`, which is the next to be read. False: there is no
+  /// such line.
+  virtual bool read_data(const std::string& name, std::string& data) = 0;
 };
 
 } // namespace render

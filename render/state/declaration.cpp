@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
@@ -107,6 +108,19 @@ std::vector<std::string_view> split_words(std::string_view text) {
 
 constexpr uint32_t kMaxArrayLength = 1u << 20;
 
+/// "[n]", if it is there.
+std::optional<slvm::Error> parse_length(const std::vector<std::string_view>& words, size_t& at,
+                                        Declaration& d) {
+  if (at + 2 >= words.size() || words[at] != "[") return {};
+  std::string_view n = words[at + 1];
+  auto [end, status] = std::from_chars(n.data(), n.data() + n.size(), d.elements);
+  bool ok = status == std::errc() && end == n.data() + n.size() && words[at + 2] == "]" && d.elements > 0 &&
+            d.elements <= kMaxArrayLength;
+  if (!ok) return slvm::Error{fmt::format("'{}' is not an array length", n)};
+  at += 3;
+  return {};
+}
+
 /// "[class] [type] [[n]]" from `words`, leaving `at` after it.
 std::optional<slvm::Error> parse_declaration(const std::vector<std::string_view>& words, size_t& at,
                                              Declaration& d) {
@@ -116,15 +130,7 @@ std::optional<slvm::Error> parse_declaration(const std::vector<std::string_view>
       ++at;
     }
   if (at < words.size() && set_type(words[at], d)) ++at;
-  if (at + 2 < words.size() + 0 && words[at] == "[") {
-    std::string_view n = words[at + 1];
-    auto [end, status] = std::from_chars(n.data(), n.data() + n.size(), d.elements);
-    bool ok = status == std::errc() && end == n.data() + n.size() && words[at + 2] == "]" && d.elements > 0 &&
-              d.elements <= kMaxArrayLength;
-    if (!ok) return slvm::Error{fmt::format("'{}' is not an array length", n)};
-    at += 3;
-  }
-  return {};
+  return parse_length(words, at, d);
 }
 
 } // namespace
@@ -168,6 +174,12 @@ slvm::Result<Declaration> Declarations::resolve(std::string_view token) const {
   Declaration d;
   size_t at = 0;
   if (auto error = parse_declaration(words, at, d)) return *error;
+  // "float heat[3]" as well as "float[3] heat".
+  if (at + 4 == words.size() && d.elements == 0) {
+    std::rotate(words.begin() + static_cast<std::ptrdiff_t>(at),
+                words.begin() + static_cast<std::ptrdiff_t>(at) + 1, words.end());
+    if (auto error = parse_length(words, at, d)) return *error;
+  }
   if (words.empty() || at + 1 != words.size())
     return slvm::Error{fmt::format("\"{}\" is not a declaration; expected \"[class] type name\"", token)};
   d.name = words[at];

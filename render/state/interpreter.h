@@ -108,7 +108,8 @@ private:
   bool stopped(const RequestCall&);
   bool nested_too_deep(const RequestCall&);
   void replay(const RequestCall&, const std::vector<RequestCall>& calls);
-  void replay_archive(const RequestCall&, const std::vector<RequestCall>& calls);
+  bool replay_archive(const RequestCall&);
+  bool replay_content(const RequestCall&);
   /// A copy whose strings hold the values of state variables; nothing when there are none in it.
   std::optional<RequestCall> substitute(const RequestCall&);
   std::optional<slvm::Value> state_variable(std::string_view name) const;
@@ -119,7 +120,8 @@ private:
   bool close(const RequestCall&, BlockKind);
   void frame_begin(const RequestCall&);
   void frame_end(const RequestCall&);
-  void add_last_folders(Options&) const;
+  /// The folders to look in, also those no search path names.
+  std::vector<std::string> full_path(const Options&, const std::string& kind) const;
   void world_begin(const RequestCall&);
   void world_end(const RequestCall&);
   void attribute_begin(const RequestCall&);
@@ -258,6 +260,11 @@ private:
   std::map<std::string, Matrix4> spaces_;
   std::map<std::string, std::shared_ptr<std::vector<RequestCall>>> objects_, archives_;
   Recording recording_;
+  /// Inline archives whose content came as data.
+  struct Content {
+    std::string type, data;
+  };
+  std::map<std::string, Content> contents_;
   Scene scene_;
   std::vector<Procedural> procedurals_;                      ///< of the world block
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed

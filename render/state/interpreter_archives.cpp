@@ -1,6 +1,7 @@
 // Files, archives and retained objects: reading, recording and replaying requests.
 #include "render/state/interpreter.h"
 
+#include "render/rib/content.h"
 #include "render/rib/encoding.h"
 #include "render/rib/gzip.h"
 #include "render/rib/parser.h"
@@ -84,20 +85,40 @@ void Interpreter::replay(const RequestCall& call, const std::vector<RequestCall>
   --depth_;
 }
 
-/// The state at the instance fills in the variables of the archive's strings.
-void Interpreter::replay_archive(const RequestCall& call, const std::vector<RequestCall>& calls) {
+/// An inline archive: the state at the instance fills in the variables of its strings. False: there is none
+/// of this name.
+bool Interpreter::replay_archive(const RequestCall& call) {
+  if (replay_content(call)) return true;
+  auto it = archives_.find(call.text(0));
+  if (it == archives_.end()) return false;
+  auto calls = it->second; // may be redefined by itself
   ++inline_depth_;
-  replay(call, calls);
+  replay(call, *calls);
   --inline_depth_;
+  return true;
+}
+
+bool Interpreter::replay_content(const RequestCall& call) {
+  auto it = contents_.find(call.text(0));
+  if (it == contents_.end()) return false;
+  Content content = it->second;
+  if (content.type != "application/rib") {
+    warn_once(
+        "content " + content.type, call.where, "rib-unsupported",
+        fmt::format("archive \"{}\" holds {}, which takes a plug-in that is not there: nothing comes of it",
+                    call.text(0), content.type));
+  } else if (!nested_too_deep(call)) {
+    ++inline_depth_;
+    ++depth_;
+    parse_text(fmt::format("<{}>", call.text(0)), std::move(content.data), false);
+    --depth_;
+    --inline_depth_;
+  }
+  return true;
 }
 
 void Interpreter::read_archive(const RequestCall& call) {
-  auto it = archives_.find(call.text(0));
-  if (it != archives_.end()) {
-    auto calls = it->second; // may be redefined by itself
-    replay_archive(call, *calls);
-    return;
-  }
+  if (replay_archive(call)) return;
   if (nested_too_deep(call)) return;
   ++depth_;
   read_archive_file(call.text(0), call.arguments[0].where, "ReadArchive");
@@ -106,9 +127,7 @@ void Interpreter::read_archive(const RequestCall& call) {
 
 void Interpreter::read_archive_file(const std::string& name, slvm::SourceRange where,
                                     std::string_view request) {
-  std::vector<std::string> path = options_.search_paths["archive"];
-  for (const std::string& folder : {std::string("."), folder_, scene_folder_})
-    if (!folder.empty() && std::find(path.begin(), path.end(), folder) == path.end()) path.push_back(folder);
+  std::vector<std::string> path = full_path(options_, "archive");
   auto found = find_file(name, path);
   if (found && !found->ends_with(std::filesystem::path(name).lexically_normal().string()))
     warn_once("archive " + name, where, "rib-path",
@@ -136,6 +155,15 @@ void Interpreter::archive_begin(const RequestCall& call) {
   recording_ = {
       call.id,   RequestId::kArchiveEnd, call.text(0), 1, std::make_shared<std::vector<RequestCall>>(),
       call.where};
+  const Param* type = call.find_param("Content-Type");
+  const Param* encoding = call.find_param("Content-Transfer-Encoding");
+  contents_.erase(call.text(0));
+  if (call.data.empty() || (type && !type->is_string()) || (encoding && !encoding->is_string())) return;
+  auto data = decode_content(encoding ? encoding->strings[0] : "", call.data);
+  if (data)
+    contents_[call.text(0)] = {type ? type->strings[0] : "application/rib", std::move(*data)};
+  else
+    error_at(encoding->where, call, data.error());
 }
 
 /// ObjectEnd and ArchiveEnd.
@@ -169,13 +197,8 @@ void Interpreter::object_instance(const RequestCall& call) {
 }
 
 void Interpreter::archive_instance(const RequestCall& call) {
-  auto it = archives_.find(call.text(0));
-  if (it == archives_.end()) {
+  if (!replay_archive(call))
     error_at(call.arguments[0].where, call, fmt::format("no archive \"{}\" was recorded", call.text(0)));
-    return;
-  }
-  auto calls = it->second;
-  replay_archive(call, *calls);
 }
 
 } // namespace render

@@ -62,18 +62,18 @@ void Interpreter::frame_end(const RequestCall& call) {
   close(call, BlockKind::kFrame);
 }
 
-/// Scenes are often made to be rendered from their own folder, and with the standard shaders at hand whatever
-/// their own search paths say.
-void Interpreter::add_last_folders(Options& options) const {
-  for (const char* kind : {"shader", "texture", "archive", "procedural"}) {
-    std::vector<std::string> folders{"."};
-    if (!scene_folder_.empty()) folders.push_back(scene_folder_);
-    if (auto it = standard_paths.find(kind); it != standard_paths.end())
-      folders.insert(folders.end(), it->second.begin(), it->second.end());
-    auto& path = options.search_paths[kind];
-    for (const std::string& folder : folders)
-      if (std::find(path.begin(), path.end(), folder) == path.end()) path.push_back(folder);
-  }
+/// Scenes are often made to be rendered from their own folder, archives to be read from theirs, and the
+/// standard shaders should be at hand whatever a search path says.
+std::vector<std::string> Interpreter::full_path(const Options& options, const std::string& kind) const {
+  std::vector<std::string> path;
+  if (auto it = options.search_paths.find(kind); it != options.search_paths.end()) path = it->second;
+  std::vector<std::string> last{".", folder_, scene_folder_};
+  if (auto it = standard_paths.find(kind); it != standard_paths.end())
+    last.insert(last.end(), it->second.begin(), it->second.end());
+  for (std::string& folder : last)
+    if (!folder.empty() && std::find(path.begin(), path.end(), folder) == path.end())
+      path.push_back(std::move(folder));
+  return path;
 }
 
 void Interpreter::world_begin(const RequestCall& call) {
@@ -84,7 +84,8 @@ void Interpreter::world_begin(const RequestCall& call) {
   scene_.world_to_camera = ctm_;
   world_motion_ = motion_;
   scene_.options = options_;
-  add_last_folders(scene_.options);
+  for (const char* kind : {"shader", "texture", "archive", "procedural"})
+    scene_.options.search_paths[kind] = full_path(options_, kind);
   if (override_options) override_options(scene_.options);
 }
 

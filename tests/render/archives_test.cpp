@@ -107,6 +107,45 @@ TEST_F(Archives, may_hold_whole_frames_and_other_archives) {
   EXPECT_EQ(r.scene.primitives.size(), 1u);
 }
 
+TEST_F(Archives, multipart_ones_are_decoded) {
+  Rendered r = in_world(
+      "ArchiveBegin \"q\" \"Content-Type\" [\"application/rib\"]\n"
+      "\"Content-Transfer-Encoding\" [\"quoted-printable\"]\n"
+      "Disk =\n0 1 =33=\r\n60\nDisk 0 2 360\nArchiveEnd \"other\"\n  ArchiveEnd  \"q\"\n"
+      "ArchiveBegin \"b\" \"Content-Transfer-Encoding\" \"base64\"\nRGlzayAwI\nDEgMzYw\nArchiveEnd \"b\"\n"
+      "ArchiveInstance \"b\" Disk 0 1 360");
+  EXPECT_EQ(r.messages, "");
+  EXPECT_EQ(r.scene.primitives.size(), 2u);
+  r = in_world("ArchiveBegin \"q\" \"Content-Transfer-Encoding\" \"quoted-printable\"\nDisk =\n0 1 "
+               "=33=\r\n60\nDisk 0 2 "
+               "360\nArchiveEnd \"q\"\nReadArchive \"q\"");
+  EXPECT_EQ(r.messages, "");
+  EXPECT_EQ(r.scene.primitives.size(), 2u);
+}
+
+TEST_F(Archives, content_of_other_types_is_passed_over) {
+  Rendered r = in_world(
+      "ArchiveBegin \"t\" \"Content-Type\" [\"application/tcl\"]\n# tcl\nRi::Cone {$x} \"\nArchiveEnd \"t\"\n"
+      "ArchiveInstance \"t\" \"int frame\" [36]\nArchiveInstance \"t\" Disk 0 1 360");
+  EXPECT_THAT(r.messages,
+              HasSubstr("test.rib:6:1: warning: archive \"t\" holds application/tcl, which takes a plug-in "
+                        "that is not there: nothing comes of it"));
+  EXPECT_EQ(r.scene.primitives.size(), 1u);
+}
+
+TEST_F(Archives, multipart_mistakes) {
+  auto messages = [&](const std::string& rest) {
+    return in_world("ArchiveBegin \"a\" \"Content-Transfer-Encoding\" " + rest).messages;
+  };
+  EXPECT_THAT(messages("\"zip\"\nx\nArchiveEnd \"a\""),
+              HasSubstr("ArchiveBegin: unknown encoding \"zip\"; known are quoted-printable, base64"));
+  EXPECT_THAT(messages("\"base64\"\nAB*\nArchiveEnd \"a\""), HasSubstr("'*' is no digit of base64"));
+  EXPECT_THAT(messages("\"quoted-printable\"\n=XY\nArchiveEnd \"a\""),
+              HasSubstr("expected two hexadecimal digits or a line end after '=', found \"XY\""));
+  EXPECT_THAT(messages("\"base64\"\nABC\nArchiveEnd \"b\""),
+              HasSubstr("ArchiveBegin: the data has no end; expected a line ArchiveEnd \"a\""));
+}
+
 TEST_F(Archives, recursion_ends) {
   file("a.rib", "ReadArchive \"a.rib\" Disk 0 1 360");
   EXPECT_THAT(in_world("ReadArchive \"a.rib\"").messages,

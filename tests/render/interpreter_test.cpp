@@ -281,9 +281,11 @@ TEST(Interpreter, geometry_that_cannot_be) {
 TEST(Interpreter, declarations_of_all_forms) {
   Scene s = scene_of("Declare \"heat\" \"varying float\" WorldBegin Sphere 1 -1 1 360 \"heat\" [0 1 2 3] "
                      "\"constant float foo\" [.1] \"varying float[2] bar2\" [0 0 1 1 2 2 3 3] "
-                     "\"uniform   string name\" [\"x\"] WorldEnd");
+                     "\"uniform   string name\" [\"x\"] \"constant float bar3[2]\" [1 2] WorldEnd");
   const auto& vars = s.primitives[0].vars;
-  ASSERT_EQ(vars.size(), 4u);
+  ASSERT_EQ(vars.size(), 5u);
+  EXPECT_EQ(vars[4].name, "bar3");
+  EXPECT_EQ(vars[4].elements, 2u);
   EXPECT_EQ(vars[0].name, "heat");
   EXPECT_EQ(vars[1].interpolation, Interpolation::kConstant);
   EXPECT_EQ(vars[2].elements, 2u);
