@@ -272,7 +272,7 @@ bool Parser::parse_params() {
   if (token_.kind == TokenKind::kWord || token_.kind == TokenKind::kEnd || data_follows()) return true;
   // A missing argument shifts the rest: Display "a.tif" "rgba" "compression" ["lzw"] has no type.
   if (token_.kind == TokenKind::kOpen && call_.params.empty() && !info_->arguments.empty() &&
-      info_->arguments.back().kind == ArgumentKind::kString)
+      info_->arguments.back().kind == ArgumentKind::kString && call_.arguments.back().present)
     return fail(
         fmt::format("found '[' after \"{}\", which was taken for '{}'; an argument is missing before it",
                     call_.arguments.back().strings[0], info_->arguments.back().name));

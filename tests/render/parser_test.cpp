@@ -134,6 +134,11 @@ TEST(Parser, messages_about_parameter_lists) {
   EXPECT_EQ(parse("5 Sides 1").errors, "1:1: expected a request, found the number 5\n");
 }
 
+TEST(Parser, an_array_for_an_optional_name) {
+  EXPECT_EQ(parse("Projection [\"orthographic\"]").errors,
+            "1:12: Projection: expected a token string or the next request, found '['\n");
+}
+
 TEST(Parser, goes_on_at_the_next_known_request) {
   Parsed p = parse("Sphere 1 oops [1 2] \"x\"\nSides 1\nColor 1 [\nSides 2");
   EXPECT_EQ(p.log, "Sides 1i\nSides 2i\n");
