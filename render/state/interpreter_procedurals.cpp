@@ -61,7 +61,10 @@ void Interpreter::procedural(const RequestCall& call) {
   Procedural& p = procedurals_.emplace_back();
   p.type = type;
   p.arguments.assign(call.texts(1).begin(), call.texts(1).end());
-  p.bound = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
+  // "Infinite" bounds stay numbers when they are transformed.
+  constexpr float kFarthest = 1e15f;
+  p.bound = {glm::clamp(Vec3(b[0], b[2], b[4]), -kFarthest, kFarthest),
+             glm::clamp(Vec3(b[1], b[3], b[5]), -kFarthest, kFarthest)};
   p.attributes = attributes_;
   p.object_to_camera = ctm_;
   p.motion = motion_;

@@ -1,8 +1,6 @@
 // Whether a bound can be seen.
 #include "render/state/procedural.h"
 
-#include <algorithm>
-
 namespace render {
 
 std::optional<float> visible_area(const Camera& camera, const Options& options, const Box& box) {
@@ -23,7 +21,8 @@ std::optional<float> visible_area(const Camera& camera, const Options& options, 
   bool outside = high.x < static_cast<float>(crop.x0) - mx || low.x > static_cast<float>(crop.x1) + mx ||
                  high.y < static_cast<float>(crop.y0) - my || low.y > static_cast<float>(crop.y1) + my;
   if (outside) return {};
-  return std::max((high.x - low.x) * (high.y - low.y), 0.0f);
+  float area = (high.x - low.x) * (high.y - low.y);
+  return area < kInfinity ? area : whole;
 }
 
 } // namespace render

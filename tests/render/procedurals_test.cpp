@@ -75,6 +75,14 @@ TEST_F(Procedurals, what_cannot_be_seen_is_not_opened) {
   EXPECT_THAT(messages(), HasSubstr("t.rib:1:98: error: Procedural: no archive \"none.rib\""));
 }
 
+TEST_F(Procedurals, bounds_may_be_infinite) {
+  file("a.rib", "Disk 0 1 360");
+  EXPECT_EQ(
+      world(
+          "Rotate 30 1 1 1 Procedural \"DelayedReadArchive\" [\"a.rib\"] [-1e38 1e38 -1e38 1e38 -1e38 1e38]"),
+      1u);
+}
+
 TEST_F(Procedurals, one_may_make_others_but_not_for_ever) {
   file("a.rib", "Disk 0 1 360 Procedural \"DelayedReadArchive\" [\"b.rib\"] [-1 1 -1 1 0 1]");
   file("b.rib", "Disk 0 1 360");
