@@ -167,7 +167,7 @@ void ProgramWriter::print() {
 void ProgramWriter::nested_function() {
   std::vector<const Variable*> targets = variables(Type::kFloat, false, true);
   std::erase_if(targets, [](const Variable* v) { return v->uniform; });
-  if (nesting_ != 1 || in_function_ || targets.empty()) return assignment();
+  if (nesting_ != 1 || in_function_ || in_light_ || targets.empty()) return assignment();
   const std::string name = one_of(targets)->name, function = fmt::format("nested{}", next_name_++);
   line(fmt::format(
       "float {}(float x) {{ extern float {}; if (x > {}) {{ {} = x; return x * 2; }} {} -= 1; return {}; }}",
