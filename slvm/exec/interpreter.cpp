@@ -155,13 +155,13 @@ void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32
   Frame f = grid;
   f.may_narrow = !all;
   f.runs_idle = all;
-  for (size_t first = 0; first < points; first += strip) {
+  auto run = [&](size_t first, bool idle) {
     f.first = first;
     f.lanes = std::min(strip, pitch - first);
     f.active = std::min(f.lanes, points - first);
     f.data[static_cast<size_t>(Space::kGrid)] = grid.data[static_cast<size_t>(Space::kGrid)] + first;
     strip_mask_.reset_from(grid_mask, first, f.lanes, f.active);
-    if (!strip_mask_.any() && !all) continue;
+    if (strip_mask_.any() == idle) return;
     for (auto word = from; word != to; ++word)
       resolved_[*word] = operand(f, program.code[*word]);
     f.resolved = resolved_.data();
@@ -170,7 +170,13 @@ void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32
     f.end = f.lanes;
     narrow(f, strip_mask_);
     execute_code<kObserved>(f, strip_mask_, body);
-  }
+  };
+  // Idle ones first: a uniform loop ends at once where no lane is on, and what it leaves in uniform registers
+  // must be that of the others.
+  for (size_t first = 0; first < points && all; first += strip)
+    run(first, true);
+  for (size_t first = 0; first < points; first += strip)
+    run(first, false);
 }
 
 // Registers hold values for active lanes only, so that lanes before the first and after the last one can be
