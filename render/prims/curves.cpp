@@ -111,18 +111,14 @@ public:
     return box;
   }
   void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.resize(u.size() * v.size());
-    size_t k = 0;
-    for (float vj : v)
-      for (float ui : u) {
-        float a = 2 * ui - 1, b = 2 * vj - 1;
-        float ra = std::sqrt(1 - a * a / 2), rb = std::sqrt(1 - b * b / 2);
-        out.P[k] = centre_ + x_ * (a * rb) + y_ * (b * ra);
-        out.dPdu[k] = 2.0f * (x_ * rb - y_ * (b * a / (2 * ra)));
-        out.dPdv[k] = 2.0f * (y_ * ra - x_ * (a * b / (2 * rb)));
-        out.N[k] = glm::cross(x_, y_);
-        ++k;
-      }
+    out.fill(u, v, [&](size_t k, float ui, float vj) {
+      float a = 2 * ui - 1, b = 2 * vj - 1;
+      float ra = std::sqrt(1 - a * a / 2), rb = std::sqrt(1 - b * b / 2);
+      out.P[k] = centre_ + x_ * (a * rb) + y_ * (b * ra);
+      out.dPdu[k] = 2.0f * (x_ * rb - y_ * (b * a / (2 * ra)));
+      out.dPdv[k] = 2.0f * (y_ * ra - x_ * (a * b / (2 * rb)));
+      out.N[k] = glm::cross(x_, y_);
+    });
   }
   std::array<int, 2> coarsest() const override { return {2, 2}; }
 

@@ -28,6 +28,14 @@ struct SurfaceLattice {
     dPdv.resize(points);
     N.resize(points);
   }
+  /// Makes room for all pairs of a u and a v and calls f(k, u, v) for each, which fills in point k.
+  template <class F> void fill(std::span<const float> u, std::span<const float> v, F&& f) {
+    resize(u.size() * v.size());
+    size_t k = 0;
+    for (float vj : v)
+      for (float ui : u)
+        f(k++, ui, vj);
+  }
 };
 
 class Geometry {

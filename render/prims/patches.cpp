@@ -56,16 +56,12 @@ public:
   }
 
   void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.resize(u.size() * v.size());
-    size_t k = 0;
-    for (float vj : v)
-      for (float ui : u) {
-        out.P[k] = point(ui, vj);
-        out.dPdu[k] = du(vj);
-        out.dPdv[k] = dv(ui);
-        out.N[k] = normal(ui, vj);
-        ++k;
-      }
+    out.fill(u, v, [&](size_t k, float ui, float vj) {
+      out.P[k] = point(ui, vj);
+      out.dPdu[k] = du(vj);
+      out.dPdv[k] = dv(ui);
+      out.N[k] = normal(ui, vj);
+    });
   }
   bool ruled() const override { return true; }
 
@@ -119,36 +115,37 @@ public:
   }
 
   void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+    std::vector<Weights> columns;
+    for (float ui : u)
+      columns.push_back({bernstein(ui), bernstein_slope(ui)});
+    const float collapsed =
+        kCollapsed * (glm::dot(p_[15] - p_[0], p_[15] - p_[0]) + glm::dot(p_[12] - p_[3], p_[12] - p_[3]));
     out.resize(u.size() * v.size());
     size_t k = 0;
-    for (float vj : v)
-      for (float ui : u) {
-        Tangents t = tangents(ui, vj);
-        out.P[k] = sum(bernstein(ui), bernstein(vj));
-        out.dPdu[k] = t.du;
-        out.dPdv[k] = t.dv;
-        out.N[k] = glm::cross(t.du, t.dv);
-        if (glm::length(out.N[k]) < kCollapsed * scale()) out.N[k] = limit_normal(p_, 4, ui, vj);
-        ++k;
+    for (float vj : v) {
+      // The row is a cubic of u, and so is its change along v.
+      const std::array<float, 4> weight = bernstein(vj), slope = bernstein_slope(vj);
+      Vec3 row[4], change[4];
+      for (size_t i = 0; i < 4; ++i) {
+        row[i] = combine(&p_[i], 4, weight);
+        change[i] = combine(&p_[i], 4, slope);
       }
+      for (size_t i = 0; i < u.size(); ++i, ++k) {
+        out.P[k] = combine(row, 1, columns[i].value);
+        out.dPdu[k] = combine(row, 1, columns[i].slope);
+        out.dPdv[k] = combine(change, 1, columns[i].value);
+        out.N[k] = glm::cross(out.dPdu[k], out.dPdv[k]);
+        if (glm::length(out.N[k]) < collapsed) out.N[k] = limit_normal(p_, 4, u[i], vj);
+      }
+    }
   }
 
 private:
-  struct Tangents {
-    Vec3 du, dv;
+  struct Weights {
+    std::array<float, 4> value, slope;
   };
-  Vec3 sum(const std::array<float, 4>& a, const std::array<float, 4>& b) const {
-    Vec3 s(0.0f);
-    for (size_t j = 0; j < 4; ++j)
-      for (size_t i = 0; i < 4; ++i)
-        s += p_[4 * j + i] * (a[i] * b[j]);
-    return s;
-  }
-  Tangents tangents(float u, float v) const {
-    return {sum(bernstein_slope(u), bernstein(v)), sum(bernstein(u), bernstein_slope(v))};
-  }
-  float scale() const {
-    return glm::dot(p_[15] - p_[0], p_[15] - p_[0]) + glm::dot(p_[12] - p_[3], p_[12] - p_[3]);
+  static Vec3 combine(const Vec3* p, size_t stride, const std::array<float, 4>& w) {
+    return p[0] * w[0] + p[stride] * w[1] + p[2 * stride] * w[2] + p[3 * stride] * w[3];
   }
 
   std::array<Vec3, 16> p_;

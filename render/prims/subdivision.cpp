@@ -155,25 +155,21 @@ public:
   }
 
   void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.resize(u.size() * v.size());
-    size_t k = 0;
-    for (float vj : v)
-      for (float ui : u) {
-        Vec3d p, du, dv;
-        at(ui, vj, p, du, dv);
-        out.P[k] = Vec3(p);
-        out.dPdu[k] = Vec3(du);
-        out.dPdv[k] = Vec3(dv);
-        Vec3d n = glm::cross(du, dv);
-        if (glm::length(n) <= 1e-9 * (glm::dot(du, du) + glm::dot(dv, dv))) {
-          // Tangents that vanish or fall together: the limit from inside.
-          at(ui + (0.5 - ui) * 1e-4, vj + (0.5 - vj) * 1e-4, p, du, dv);
-          n = glm::cross(du, dv);
-        }
-        double length = glm::length(n);
-        out.N[k] = length > 0 ? Vec3(n / length) : Vec3(0.0f);
-        ++k;
+    out.fill(u, v, [&](size_t k, float ui, float vj) {
+      Vec3d p, du, dv;
+      at(ui, vj, p, du, dv);
+      out.P[k] = Vec3(p);
+      out.dPdu[k] = Vec3(du);
+      out.dPdv[k] = Vec3(dv);
+      Vec3d n = glm::cross(du, dv);
+      if (glm::length(n) <= 1e-9 * (glm::dot(du, du) + glm::dot(dv, dv))) {
+        // Tangents that vanish or fall together: the limit from inside.
+        at(ui + (0.5 - ui) * 1e-4, vj + (0.5 - vj) * 1e-4, p, du, dv);
+        n = glm::cross(du, dv);
       }
+      double length = glm::length(n);
+      out.N[k] = length > 0 ? Vec3(n / length) : Vec3(0.0f);
+    });
   }
 
 private:

@@ -1,6 +1,7 @@
 // Files, archives and objects: where they are found, in which encodings, and what bounds them.
 #include "render/state/interpreter.h"
 #include "tests/render/render_text.h"
+#include "tests/temp_folder.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -9,7 +10,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 namespace render::testing {
 namespace {
@@ -21,15 +21,7 @@ using ::testing::Not;
 
 class Archives : public ::testing::Test {
 protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("anemone_archives_{}", ::getpid());
-    fs::create_directories(folder_ / "parts");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  void file(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
+  void file(const std::string& name, const std::string& text) { folder_.write(name, text); }
   void packed(const std::string& name, const std::string& text) {
     gzFile out = gzopen((folder_ / name).c_str(), "wb");
     gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
@@ -41,7 +33,7 @@ protected:
                        ":&\"]\nWorldBegin " + rib + " WorldEnd");
   }
 
-  fs::path folder_;
+  anemone::test::TempFolder folder_;
 };
 
 const std::string kEncodedDisk = "\314\x05\224Disk\246\x05\200\x00\244\x3f\x80\x00\x00\201\x01\x68"s;

@@ -1,7 +1,7 @@
 // Blobbies: fields by hand, operators, the surface of one leaf against the sphere and the capsule it is.
 #include "render/prims/blobby.h"
 
-#include "tests/render/render_text.h"
+#include "tests/render/surface_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,12 +45,6 @@ TEST(Blobby, leaves_and_operators) {
   EXPECT_NEAR(value({6, 1}), -b, 1e-12);
   EXPECT_NEAR(value({7, 1}), b, 1e-12);
   EXPECT_NEAR(value({5, 0, 1, 0, 2, 3, 2}), a - b + c, 1e-12); // results count as operands
-}
-
-Scene scene_of(const std::string& rib) {
-  Rendered r = render_text("Format 4 4 1 WorldBegin " + rib + " WorldEnd");
-  EXPECT_EQ(r.messages, "");
-  return r.scene;
 }
 
 /// Calls `f` with position and unit normal at corners of all pieces; returns the volume inside.

@@ -1,7 +1,7 @@
 // Ribbons and discs: positions, facing, widths, variables; pictures by area.
 #include "render/prims/curves.h"
 
-#include "tests/render/render_text.h"
+#include "tests/render/surface_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,44 +13,11 @@ namespace {
 
 using ::testing::HasSubstr;
 
-struct Point {
-  Vec3 P, N, dPdu, dPdv;
-};
-
-Point at(const Primitive& p, float u, float v) {
-  SurfaceLattice l;
-  p.geometry->evaluate({&u, 1}, {&v, 1}, l);
-  return {l.P[0], l.N[0], l.dPdu[0], l.dPdv[0]};
-}
-
-float value(const Primitive& p, std::string_view name, float u, float v) {
-  for (const PatchVar& var : p.vars)
-    if (var.name == name) {
-      std::vector<float> out(var.width());
-      interpolate(var, {&u, 1}, {&v, 1}, out.data(), 1);
-      return out[0];
-    }
-  ADD_FAILURE() << "no variable " << name;
-  return 0;
-}
-
-void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
-
-Scene scene_of(const std::string& rib) {
-  Rendered r = render_text("Format 4 4 1 WorldBegin " + rib + " WorldEnd");
-  EXPECT_EQ(r.messages, "");
-  return r.scene;
-}
-
 TEST(Curves, cubic_ribbons_follow_their_bezier_curve_and_face_the_eye) {
   Scene s = scene_of("Translate 0 0 5 Curves \"cubic\" [4] \"nonperiodic\" \"P\" [0 0 0 1 0 0 2 0 0 3 0 0] "
                      "\"width\" [.2 .4]");
   ASSERT_EQ(s.primitives.size(), 1u);
-  Point middle = at(s.primitives[0], 0.5f, 0.25f), edge = at(s.primitives[0], 1, 0.25f);
+  SurfacePoint middle = at(s.primitives[0], 0.5f, 0.25f), edge = at(s.primitives[0], 1, 0.25f);
   expect_near(middle.P, {0.75f, 0, 0});
   EXPECT_NEAR(glm::length(edge.P - middle.P), 0.125f, 1e-6f);
   EXPECT_NEAR(edge.P.x, 0.75f, 1e-6f);
@@ -145,14 +112,14 @@ TEST(Points, are_discs_that_face_the_eye) {
                         "[1 0 0 0 1 0] \"constant float k\" [2] WorldEnd")
                 .scene;
   ASSERT_EQ(s.primitives.size(), 2u);
-  Point p = at(s.primitives[0], 0.5f, 0.5f);
+  SurfacePoint p = at(s.primitives[0], 0.5f, 0.5f);
   expect_near(p.P, {3, 0, 4});
   expect_near(glm::normalize(p.N), {-0.6f, 0, -0.8f});
   for (float u : {0.0f, 0.25f, 1.0f})
     EXPECT_NEAR(glm::length(at(s.primitives[1], u, 0).P - Vec3(0, 0, 5)), 0.2f, 1e-6f);
   EXPECT_FLOAT_EQ(value(s.primitives[1], "Cs", 0, 0), 0);
   EXPECT_FLOAT_EQ(value(s.primitives[1], "k", 0, 0), 2);
-  Point q = at(s.primitives[0], 0.3f, 0.6f);
+  SurfacePoint q = at(s.primitives[0], 0.3f, 0.6f);
   expect_near(q.dPdu, (at(s.primitives[0], 0.301f, 0.6f).P - at(s.primitives[0], 0.299f, 0.6f).P) / 0.002f,
               1e-3f);
   expect_near(glm::normalize(glm::cross(q.dPdu, q.dPdv)), glm::normalize(q.N), 1e-5f);

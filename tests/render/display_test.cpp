@@ -1,6 +1,7 @@
 // Image files: types, modes, quantisation, names, errors.
 #include "render/display/output.h"
 #include "tests/render/render_text.h"
+#include "tests/temp_folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
@@ -16,12 +17,6 @@ using ::testing::HasSubstr;
 
 class Display : public ::testing::Test {
 protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("anemone_display_" + std::to_string(::getpid()));
-    fs::create_directories(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
   std::string path(const std::string& name) { return (directory_ / name).string(); }
 
   /// Renders a half-covering grey disk to the displays and returns the messages of writing.
@@ -48,7 +43,7 @@ protected:
     return pixels;
   }
 
-  fs::path directory_;
+  anemone::test::TempFolder directory_;
   std::vector<std::string> written_;
 };
 

@@ -1,7 +1,7 @@
 // The binary encoding of RIB and gzip files.
 #include "render/rib/encoding.h"
 #include "render/rib/gzip.h"
-#include "render/rib/lexer.h"
+#include "tests/render/tokens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,16 +14,6 @@ namespace {
 
 using namespace std::string_literals;
 using ::testing::HasSubstr;
-
-std::vector<Token> tokens_of(std::string_view text) {
-  Lexer lexer(text, 1);
-  std::vector<Token> out;
-  do {
-    lexer.next(out.emplace_back());
-  } while (out.back().kind != TokenKind::kEnd && out.size() < 1000);
-  out.pop_back();
-  return out;
-}
 
 Token only(std::string_view text) {
   auto t = tokens_of(text);

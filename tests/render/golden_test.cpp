@@ -1,5 +1,7 @@
 // Pictures compared with the ones in tests/render/golden, which were looked at. With ANEMONE_UPDATE_GOLDEN
 // set the test writes them anew: look at them before they are committed.
+#include "tests/temp_folder.h"
+
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
@@ -8,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 namespace {
 
@@ -16,15 +17,9 @@ namespace fs = std::filesystem;
 
 class Golden : public ::testing::TestWithParam<std::string> {
 protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / fmt::format("anemone_golden_{}_{}", ::getpid(), GetParam());
-    fs::create_directories(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
   /// Renders `name`.rib after `before`, and compares out.exr with `picture`.exr.
   void check(const std::string& name, const std::string& picture, const std::string& before = "") {
-    std::ofstream(directory_ / "before.rib") << before << "\n";
+    directory_.write("before.rib", before + "\n");
     std::string command =
         fmt::format("cd '{}' && '{}' --shaders '{}/shaders:@' --archives '{}' before.rib '{}/{}.rib'",
                     directory_.string(), SLRENDER_PROGRAM, GOLDEN_FOLDER, GOLDEN_FOLDER, GOLDEN_FOLDER, name);
@@ -50,7 +45,7 @@ protected:
                                          << " channel " << difference.maxc;
   }
 
-  fs::path directory_;
+  anemone::test::TempFolder directory_;
 };
 
 TEST_P(Golden, picture) {

@@ -1,5 +1,5 @@
 // Tokens of RIB, ASCII and encoded.
-#include "render/rib/lexer.h"
+#include "tests/render/tokens.h"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +7,6 @@
 
 namespace render {
 namespace {
-
-std::vector<Token> tokens_of(std::string_view text) {
-  Lexer lexer(text, 1);
-  std::vector<Token> out;
-  do {
-    lexer.next(out.emplace_back());
-  } while (out.back().kind != TokenKind::kEnd && out.size() < 1000);
-  out.pop_back();
-  return out;
-}
 
 TEST(Lexer, kinds_of_tokens) {
   auto t = tokens_of("Sphere 1 -.5 [ \"a b\" ] - 2e3");

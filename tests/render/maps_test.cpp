@@ -5,6 +5,7 @@
 #include "render/texture/texture_maps.h"
 #include "slvm/textures.h"
 #include "tests/render/render_text.h"
+#include "tests/temp_folder.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imageio.h>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 namespace render::testing {
 namespace {
@@ -24,12 +24,6 @@ using ::testing::HasSubstr;
 
 class Maps : public ::testing::Test {
 protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / ("anemone_maps_" + std::to_string(::getpid()));
-    fs::create_directories(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
   std::string path(const std::string& name) { return (directory_ / name).string(); }
 
   /// A float image whose pixels are f(s, t).
@@ -69,7 +63,7 @@ protected:
     return {result[0], result[1], result[2]};
   }
 
-  fs::path directory_;
+  anemone::test::TempFolder directory_;
   std::string problem_;
   std::map<std::string, std::string> replaced_;
 };

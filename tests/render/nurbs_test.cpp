@@ -1,7 +1,7 @@
 // NURBS: positions, tangents and bounds against closed forms; variables; trimming by area; messages.
 #include "render/prims/nurbs_pieces.h"
 
-#include "tests/render/render_text.h"
+#include "tests/render/surface_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,33 +12,6 @@ namespace render::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-struct Point {
-  Vec3 P, N, dPdu, dPdv;
-};
-
-Point at(const Primitive& p, float u, float v) {
-  SurfaceLattice l;
-  p.geometry->evaluate({&u, 1}, {&v, 1}, l);
-  return {l.P[0], l.N[0], l.dPdu[0], l.dPdv[0]};
-}
-
-float value(const Primitive& p, std::string_view name, float u, float v) {
-  for (const PatchVar& var : p.vars)
-    if (var.name == name) {
-      std::vector<float> out(var.width());
-      interpolate(var, {&u, 1}, {&v, 1}, out.data(), 1);
-      return out[0];
-    }
-  ADD_FAILURE() << "no variable " << name;
-  return 0;
-}
-
-Scene scene_of(const std::string& rib) {
-  Rendered r = render_text("Format 4 4 1 WorldBegin " + rib + " WorldEnd");
-  EXPECT_EQ(r.messages, "");
-  return r.scene;
-}
 
 /// A cylinder of radius 1 and height 2: nine points round, two up.
 const char kCylinder[] =
@@ -54,12 +27,12 @@ TEST(Nurbs, a_rational_circle_is_a_circle) {
   ASSERT_EQ(s.primitives.size(), 4u);
   for (const Primitive& p : s.primitives)
     for (float u : {0.0f, 0.3f, 0.5f, 1.0f}) {
-      Point q = at(p, u, 0.25f);
+      SurfacePoint q = at(p, u, 0.25f);
       EXPECT_NEAR(glm::length(Vec2(q.P)), 1, 1e-6f);
       EXPECT_NEAR(q.P.z, 0.5f, 1e-6f);
       EXPECT_NEAR(glm::dot(glm::normalize(q.N), Vec3(q.P.x, q.P.y, 0)), 1, 1e-6f);
       EXPECT_NEAR(glm::dot(q.dPdu, q.P), 0.0f, 1e-5f);
-      Point next = at(p, u + 1e-3f, 0.25f), before = at(p, u - 1e-3f, 0.25f);
+      SurfacePoint next = at(p, u + 1e-3f, 0.25f), before = at(p, u - 1e-3f, 0.25f);
       if (u > 0 && u < 1) {
         EXPECT_NEAR(glm::length(q.dPdu - (next.P - before.P) / 2e-3f), 0, 2e-3f);
       }
@@ -158,8 +131,8 @@ double area_of(const Scene& s) {
   constexpr int kSteps = 8;
   for (const Primitive& p : s.primitives)
     for (int k = 0; k < kSteps * kSteps; ++k) {
-      Point q = at(p, (static_cast<float>(k % kSteps) + 0.5f) / kSteps,
-                   (static_cast<float>(k / kSteps) + 0.5f) / kSteps);
+      SurfacePoint q = at(p, (static_cast<float>(k % kSteps) + 0.5f) / kSteps,
+                          (static_cast<float>(k / kSteps) + 0.5f) / kSteps);
       area += static_cast<double>(glm::cross(q.dPdu, q.dPdv).z) / kSteps / kSteps;
       EXPECT_NEAR(q.N.z, 1, 1e-6f);
     }
@@ -184,7 +157,7 @@ TEST(Trim, variables_and_parameters_follow_the_surface) {
   Scene s = scene_of(circle() + kSquare);
   for (const Primitive& p : s.primitives)
     for (float a : {0.1f, 0.9f}) {
-      Point q = at(p, a, 0.4f);
+      SurfacePoint q = at(p, a, 0.4f);
       EXPECT_NEAR(value(p, "x", a, 0.4f), q.P.x, 1e-6f);
       EXPECT_NEAR(value(p, "u", a, 0.4f), q.P.x, 1e-6f);
       EXPECT_NEAR(value(p, "v", a, 0.4f), q.P.y, 1e-6f);

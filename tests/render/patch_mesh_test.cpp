@@ -3,7 +3,7 @@
 
 #include "render/prims/teapot.h"
 #include "render/prims/typed_vars.h"
-#include "tests/render/render_text.h"
+#include "tests/render/surface_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,39 +14,6 @@ namespace render::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-struct Point {
-  Vec3 P, N, dPdu, dPdv;
-};
-
-Point at(const Primitive& p, float u, float v) {
-  SurfaceLattice l;
-  p.geometry->evaluate({&u, 1}, {&v, 1}, l);
-  return {l.P[0], l.N[0], l.dPdu[0], l.dPdv[0]};
-}
-
-void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
-
-float value(const Primitive& p, std::string_view name, float u, float v) {
-  for (const PatchVar& var : p.vars)
-    if (var.name == name) {
-      std::vector<float> out(var.width());
-      interpolate(var, {&u, 1}, {&v, 1}, out.data(), 1);
-      return out[0];
-    }
-  ADD_FAILURE() << "no variable " << name;
-  return 0;
-}
-
-Scene scene_of(const std::string& rib) {
-  Rendered r = render_text("Format 4 4 1 WorldBegin " + rib + " WorldEnd");
-  EXPECT_EQ(r.messages, "");
-  return r.scene;
-}
 
 /// Points (i, j, 0), nu x nv.
 std::string flat(int nu, int nv) {
@@ -134,7 +101,7 @@ TEST(PatchMesh, periodic_meshes_close) {
       "Basis \"b-spline\" 1 \"bezier\" 3 PatchMesh \"bicubic\" 8 \"periodic\" 4 \"nonperiodic\"" + P + "]");
   ASSERT_EQ(ring.primitives.size(), 8u);
   for (size_t k = 0; k < 8; ++k) {
-    Point end = at(ring.primitives[k], 1, 0.5f), start = at(ring.primitives[(k + 1) % 8], 0, 0.5f);
+    SurfacePoint end = at(ring.primitives[k], 1, 0.5f), start = at(ring.primitives[(k + 1) % 8], 0, 0.5f);
     expect_near(end.P, start.P);
     expect_near(end.dPdu, start.dPdu, 1e-4f);
     // (p[k] + 4 p[k+1] + p[k+2]) / 6 on a circle
@@ -231,7 +198,7 @@ TEST(Teapot, is_closed_in_and_its_normals_point_outwards) {
   for (const auto& p : patches)
     add_patch_mesh(side, side, p, {}, nullptr, out);
   for (size_t k = 0; k < out.size(); ++k) {
-    Point q = at(out[k], 0.5f, 0.5f);
+    SurfacePoint q = at(out[k], 0.5f, 0.5f);
     box.add(out[k].geometry->bound({}));
     // Away from the axis of the body, or from the middle of handle and spout. The first four are the rim.
     Vec3 inside = k < 24 ? Vec3(0, 0, q.P.z) : Vec3(q.P.x, 0, q.P.z);

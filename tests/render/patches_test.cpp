@@ -2,6 +2,7 @@
 #include "render/prims/patches.h"
 
 #include "render/prims/polygons.h"
+#include "tests/render/surface_probe.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +11,7 @@
 namespace render {
 namespace {
 
-void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
+using testing::expect_near;
 
 SurfaceLattice lattice(const Geometry& g, std::vector<float> u, std::vector<float> v) {
   SurfaceLattice l;

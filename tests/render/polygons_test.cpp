@@ -2,7 +2,7 @@
 #include "render/prims/polygons.h"
 
 #include "render/prims/triangulate.h"
-#include "tests/render/render_text.h"
+#include "tests/render/surface_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,12 +77,6 @@ TEST(Triangulate, ends_on_nonsense) {
   EXPECT_TRUE(triangulate(Points{{nan, 0}, {1, nan}, {nan, nan}, {0, 1}}, std::vector{4}).empty());
   EXPECT_TRUE(triangulate(Points(50, glm::dvec2(1, 1)), std::vector{30, 20}).empty());
   EXPECT_TRUE(triangulate(Points{{0, 0}, {1, 1}}, std::vector{2}).empty());
-}
-
-Scene scene_of(const std::string& rib) {
-  Rendered r = render_text("Format 4 4 1 WorldBegin " + rib + " WorldEnd");
-  EXPECT_EQ(r.messages, "");
-  return r.scene;
 }
 
 /// Area and, in `sum`, the integral of a variable's first component, by the corners of the (flat) patches.

@@ -1,6 +1,7 @@
 // Procedurals: called when their bound is seen, with the state of their request, and under which rules.
 #include "render/state/interpreter.h"
 #include "tests/render/render_text.h"
+#include "tests/temp_folder.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,7 +9,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 namespace render::testing {
 namespace {
@@ -20,8 +20,6 @@ using ::testing::Not;
 class Procedurals : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / fmt::format("anemone_procedurals_{}", ::getpid());
-    fs::create_directories(folder_);
     sources_ = std::make_unique<slvm::SourceManager>();
     diagnostics_ = std::make_unique<slvm::Diagnostics>();
     interpreter_ =
@@ -30,9 +28,8 @@ protected:
     interpreter_->options().search_paths["procedural"] = {folder_.string()};
     interpreter_->program_limits.seconds = 20;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  void file(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
+  void file(const std::string& name, const std::string& text) { folder_.write(name, text); }
   void program(const std::string& name, const std::string& text) {
     file(name, "#!/bin/sh\n" + text);
     fs::permissions(folder_ / name, fs::perms::owner_all);
@@ -45,7 +42,7 @@ protected:
   }
   std::string messages() { return format_diagnostics(*diagnostics_, *sources_); }
 
-  fs::path folder_;
+  anemone::test::TempFolder folder_;
   Scene scene_;
   std::unique_ptr<slvm::SourceManager> sources_;
   std::unique_ptr<slvm::Diagnostics> diagnostics_;

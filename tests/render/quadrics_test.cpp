@@ -1,6 +1,8 @@
 // Quadrics: positions and normals against closed forms, bounds against sampling.
 #include "render/prims/quadrics.h"
 
+#include "tests/render/surface_probe.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,20 +11,11 @@
 namespace render {
 namespace {
 
-struct Point {
-  Vec3 P, dPdu, dPdv, N;
-};
-
-Point at(const Geometry& g, float u, float v) {
-  SurfaceLattice l;
-  g.evaluate({&u, 1}, {&v, 1}, l);
-  return {l.P[0], l.dPdu[0], l.dPdv[0], l.N[0]};
-}
+using testing::at;
+using Point = testing::SurfacePoint;
 
 void expect_near(Vec3 a, Vec3 b, float tolerance = 2e-5f) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
+  testing::expect_near(a, b, tolerance);
 }
 
 struct Case {

@@ -4,6 +4,7 @@
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
+#include "tests/temp_folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <unistd.h>
 
 namespace render {
 namespace {
@@ -24,15 +24,12 @@ using ::testing::HasSubstr;
 class RendererTest : public ::testing::Test {
 protected:
   void SetUp() override {
-    directory_ = fs::temp_directory_path() / fmt::format("anemone_renderer_{}", ::getpid());
-    fs::create_directories(directory_);
     settings_.shader_loader = [this](const std::string& name, const std::vector<std::string>& path) {
       return load(name, path);
     };
     settings_.print = [this](std::string_view text) { printed_ += text; };
     settings_.threads = 1;
   }
-  void TearDown() override { fs::remove_all(directory_); }
 
   /// Renders 16 x 16 pixels to float channels; the messages are returned.
   std::string render(const std::string& rib, const std::string& mode = "rgba") {
@@ -84,7 +81,7 @@ private:
     in->read_image(0, 0, 0, channels_, OIIO::TypeDesc::FLOAT, pixels_.data());
   }
 
-  fs::path directory_;
+  anemone::test::TempFolder directory_;
   std::vector<float> pixels_;
   int channels_ = 0;
 };

@@ -1,4 +1,6 @@
 // slrender as users run it: options, exit codes, messages.
+#include "tests/temp_folder.h"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 namespace {
 
@@ -15,14 +16,8 @@ using ::testing::HasSubstr;
 
 class SlrenderTest : public ::testing::Test {
 protected:
-  void SetUp() override {
-    directory_ = fs::temp_directory_path() / fmt::format("anemone_slrender_{}", ::getpid());
-    fs::create_directories(directory_);
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  void file(const std::string& name, const std::string& text) { std::ofstream(directory_ / name) << text; }
-  bool exists(const std::string& name) const { return fs::exists(directory_ / name); }
+  void file(const std::string& name, const std::string& text) { directory_.write(name, text); }
+  bool exists(const std::string& name) const { return directory_.has(name); }
 
   struct Outcome {
     int status;
@@ -42,7 +37,7 @@ protected:
     return out;
   }
 
-  fs::path directory_;
+  anemone::test::TempFolder directory_;
 };
 
 const char* kScene = "Display \"a.png\" \"png\" \"rgba\"\nFormat 32 24 1\nWorldBegin\nTranslate 0 0 5\n"

@@ -2,7 +2,7 @@
 // every class, messages.
 #include "render/prims/subdivision.h"
 
-#include "tests/render/render_text.h"
+#include "tests/render/surface_probe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,39 +14,6 @@ namespace render::testing {
 namespace {
 
 using ::testing::HasSubstr;
-
-struct Point {
-  Vec3 P, N, dPdu, dPdv;
-};
-
-Point at(const Primitive& p, float u, float v) {
-  SurfaceLattice l;
-  p.geometry->evaluate({&u, 1}, {&v, 1}, l);
-  return {l.P[0], l.N[0], l.dPdu[0], l.dPdv[0]};
-}
-
-void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
-
-float value(const Primitive& p, std::string_view name, float u, float v) {
-  for (const PatchVar& var : p.vars)
-    if (var.name == name) {
-      std::vector<float> out(var.width());
-      interpolate(var, {&u, 1}, {&v, 1}, out.data(), 1);
-      return out[0];
-    }
-  ADD_FAILURE() << "no variable " << name;
-  return 0;
-}
-
-Scene scene_of(const std::string& rib) {
-  Rendered r = render_text("Format 4 4 1 WorldBegin " + rib + " WorldEnd");
-  EXPECT_EQ(r.messages, "");
-  return r.scene;
-}
 
 std::string message(const std::string& rib) {
   return messages_of("WorldBegin " + rib + " WorldEnd");
@@ -80,16 +47,16 @@ TEST(Subdivision, limit_points_and_normals_of_a_cube) {
   for (const Primitive& p : s.primitives) {
     // A vertex of valence 3: (n^2 v + 4 sum e + sum f) / (n (n + 5)); its neighbours add up to v, the
     // far corners of its faces to -v.
-    Point corner = at(p, 0, 0);
+    SurfacePoint corner = at(p, 0, 0);
     Vec3 v = glm::sign(corner.P);
     Vec3 limit = (9.0f * v + 4.0f * v - v) / 24.0f;
     expect_near(corner.P, limit, 1e-4f);
     expect_near(glm::normalize(corner.N), glm::normalize(v), 1e-3f);
-    Point middle = at(p, 0.5f, 0.5f);
+    SurfacePoint middle = at(p, 0.5f, 0.5f);
     // By symmetry the middle is on an axis and its normal along it.
     expect_near(glm::normalize(middle.N), glm::normalize(middle.P), 1e-4f);
     for (float u : {0.2f, 0.9f}) {
-      Point q = at(p, u, 0.3f), next = at(p, u + 1e-3f, 0.3f), before = at(p, u - 1e-3f, 0.3f);
+      SurfacePoint q = at(p, u, 0.3f), next = at(p, u + 1e-3f, 0.3f), before = at(p, u - 1e-3f, 0.3f);
       expect_near(q.dPdu, (next.P - before.P) / 2e-3f, 3e-3f);
       Box b = p.geometry->bound({u - 0.05f, u + 0.05f, 0.25f, 0.35f});
       for (int k = 0; k < 3; ++k)
@@ -108,7 +75,8 @@ TEST(Subdivision, neighbouring_faces_meet) {
   for (const Primitive& p : s.primitives)
     for (int j = 0; j < kSteps; ++j)
       for (int i = 0; i < kSteps; ++i) {
-        Point q = at(p, (static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps);
+        SurfacePoint q =
+            at(p, (static_cast<float>(i) + 0.5f) / kSteps, (static_cast<float>(j) + 0.5f) / kSteps);
         Vec3 n = glm::cross(q.dPdu, q.dPdv) / float(kSteps * kSteps);
         area += n;
         volume += static_cast<double>(glm::dot(q.P, n)) / 3;

@@ -2,6 +2,7 @@
 #include "render/state/transforms.h"
 
 #include "render/state/camera.h"
+#include "tests/render/surface_probe.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +11,7 @@
 namespace render {
 namespace {
 
-void expect_near(Vec3 a, Vec3 b, float tolerance = 1e-5f) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
+using testing::expect_near;
 
 TEST(Transforms, rotation_takes_x_to_y_about_z) {
   expect_near(transform_point(rotation(90, {0, 0, 1}), Vec3{1, 0, 0}), {0, 1, 0});

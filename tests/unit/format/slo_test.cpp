@@ -1,6 +1,7 @@
 // .slo files: what is written is read again; damaged, foreign and outdated files get an error that says so.
 #include "slvm/format/slo.h"
 
+#include "tests/temp_folder.h"
 #include "tests/unit/ir/samples.h"
 
 #include <cstring>
@@ -131,8 +132,7 @@ TEST(Slo, ForeignFilesAreNamed) {
 }
 
 TEST(Files, AreWrittenWholeOrNotAtAll) {
-  auto folder = std::filesystem::temp_directory_path() / ("slo_test_" + std::to_string(::getpid()));
-  std::filesystem::create_directory(folder);
+  anemone::test::TempFolder folder;
   std::string path = folder / "x.slo";
   auto file = write_slo(full_program());
   ASSERT_TRUE(write_file(path, file));
@@ -143,7 +143,6 @@ TEST(Files, AreWrittenWholeOrNotAtAll) {
   EXPECT_EQ(entries, 1); // no temporary stays
   EXPECT_THAT(read_file(folder / "none.slo").error(), HasSubstr("cannot open"));
   EXPECT_THAT(write_file(folder / "none" / "x.slo", file).error(), HasSubstr("cannot write"));
-  std::filesystem::remove_all(folder);
 }
 
 } // namespace

@@ -2,10 +2,10 @@
 #include "slvm/format/stale.h"
 
 #include "slvm/format/slo.h"
+#include "tests/temp_folder.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 namespace slvm {
 namespace {
@@ -14,18 +14,9 @@ namespace fs = std::filesystem;
 
 class Stale : public testing::Test {
 protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("stale_test_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) {
-    fs::path path = folder_ / name;
-    fs::create_directories(path.parent_path());
-    EXPECT_TRUE(write_file(path.string(), std::as_bytes(std::span(text))));
-    return path.string();
+    folder_.write(name, text);
+    return (folder_ / name).string();
   }
   static uint64_t hash(const std::string& text) { return hash_bytes(std::as_bytes(std::span(text))); }
   // A shader compiled from `main`, which includes `header`; both were "old" then.
@@ -37,7 +28,7 @@ protected:
   }
   std::string slo(const std::string& name) { return (folder_ / name).string(); }
 
-  fs::path folder_;
+  anemone::test::TempFolder folder_;
 };
 
 TEST_F(Stale, SourcesLieBesideTheShader) {

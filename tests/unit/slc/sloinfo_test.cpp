@@ -1,4 +1,5 @@
 // What sloinfo lists of small shaders beside their parameters, word for word; sources that have changed.
+#include "slc/preprocess/preprocess.h"
 #include "tests/unit/slc/tool_fixture.h"
 
 #include <gmock/gmock.h>
