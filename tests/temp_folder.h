@@ -16,9 +16,10 @@ class TempFolder {
 public:
   TempFolder() {
     const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    std::string name =
-        std::string("anemone_") + test.test_suite_name() + "_" + test.name() + "_" + std::to_string(::getpid());
-    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+    std::string name = std::string("anemone_") + test.test_suite_name() + "_" + test.name() + "_" +
+                       std::to_string(::getpid());
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
     path_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);

@@ -1,9 +1,10 @@
 // Search paths and reading of files.
 #include "render/state/search_path.h"
 
+#include "slvm/support/path_list.h"
+
 #include <cctype>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -49,60 +50,24 @@ std::string expand_variables(std::string_view text) {
 
 std::vector<std::string> parse_search_path(std::string_view text, const std::vector<std::string>& previous,
                                            const std::vector<std::string>& standard) {
-  std::string expanded = expand_variables(text);
   std::vector<std::string> out;
-  std::string word;
-  auto finish = [&] {
-    if (word == "&")
+  for (std::string& folder : slvm::split_path_list(expand_variables(text)))
+    if (folder == "&")
       out.insert(out.end(), previous.begin(), previous.end());
-    else if (word == "@")
+    else if (folder == "@")
       out.insert(out.end(), standard.begin(), standard.end());
-    else if (!word.empty())
-      out.push_back(word);
-    word.clear();
-  };
-  for (size_t i = 0; i < expanded.size(); ++i) {
-    char c = expanded[i];
-    char next = i + 1 < expanded.size() ? expanded[i + 1] : '\0';
-    bool drive = c == ':' && word.size() == 1 && std::isalpha(static_cast<unsigned char>(word[0])) &&
-                 (next == '/' || next == '\\');
-    if ((c == ':' && !drive) || c == ';')
-      finish();
     else
-      word += c;
-  }
-  finish();
+      out.push_back(std::move(folder));
   return out;
 }
 
-namespace {
-
-std::optional<std::string> find_in(const std::filesystem::path& path,
-                                   const std::vector<std::string>& directories) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (const std::string& directory : directories) {
-    fs::path candidate = fs::path(directory) / path;
-    if (fs::is_regular_file(candidate, error)) return candidate.lexically_normal().string();
-  }
-  return {};
-}
-
-} // namespace
-
 std::optional<std::string> find_file(std::string_view name, const std::vector<std::string>& directories) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  fs::path path(name);
-  if (path.is_absolute()) {
-    if (fs::is_regular_file(path, error)) return path.string();
-  } else if (auto found = find_in(path, directories)) {
-    return found;
-  }
+  std::string found = slvm::find_in_folders(std::string(name), directories);
   // "C:\\models\\ball.rib" and "/usr/anna/ball.rib" of another machine: the file may have come along.
   std::string_view base = name.substr(name.find_last_of("/\\") + 1); // npos + 1 is 0
-  if (base == name || base.empty()) return {};
-  return find_in(fs::path(base), directories);
+  if (found.empty() && base != name && !base.empty())
+    found = slvm::find_in_folders(std::string(base), directories);
+  return found.empty() ? std::nullopt : std::optional(std::move(found));
 }
 
 std::optional<std::string> read_file(const std::string& path) {

@@ -1,6 +1,8 @@
 // The order in which names are tried.
 #include "render/texture/find_image.h"
 
+#include "slvm/support/path_list.h"
+
 #include <filesystem>
 
 namespace render {
@@ -12,20 +14,18 @@ namespace {
 constexpr std::string_view kExtensions[] = {".tif", ".tiff", ".tx",  ".tex", ".exr", ".png",
                                             ".jpg", ".jpeg", ".env", ".hdr", ".tga"};
 
-std::optional<std::string> in_folders(const fs::path& name, const std::vector<std::string>& folders) {
+std::optional<std::string> in_folders(const std::string& name, const std::vector<std::string>& folders) {
   std::error_code error;
-  if (fs::is_regular_file(name, error)) return name.string();
-  if (name.is_absolute()) return {};
-  for (const std::string& folder : folders)
-    if (fs::path whole = fs::path(folder) / name; fs::is_regular_file(whole, error)) return whole.string();
-  return {};
+  if (fs::is_regular_file(name, error)) return name;
+  std::string found = slvm::find_in_folders(name, folders);
+  return found.empty() ? std::nullopt : std::optional(std::move(found));
 }
 
 std::optional<std::string> with_extensions(const fs::path& name, const std::vector<std::string>& folders) {
-  if (auto found = in_folders(name, folders)) return found;
+  if (auto found = in_folders(name.string(), folders)) return found;
   for (std::string_view extension : kExtensions) {
     fs::path other = name;
-    if (auto found = in_folders(other.replace_extension(extension), folders)) return found;
+    if (auto found = in_folders(other.replace_extension(extension).string(), folders)) return found;
   }
   // wood.tif may have been made into wood.tif.tx, or be wanted as such.
   for (std::string_view extension : kExtensions)

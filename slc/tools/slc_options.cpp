@@ -3,6 +3,7 @@
 #include "slc/tools/slc_options.h"
 
 #include "slc/diag/messages.h"
+#include "slvm/support/path_list.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -48,16 +49,6 @@ std::vector<std::string> respelled(int argc, char** argv) {
     if (std::find(std::begin(kSingleDash), std::end(kSingleDash), arg) != std::end(kSingleDash))
       arg.insert(0, "-");
   return args;
-}
-
-std::vector<std::string> split_path(std::string_view list) {
-  std::vector<std::string> folders;
-  while (!list.empty()) {
-    size_t end = std::min(list.find_first_of(":;"), list.size());
-    if (end > 0) folders.emplace_back(list.substr(0, end));
-    list.remove_prefix(std::min(end + 1, list.size()));
-  }
-  return folders;
 }
 
 // What -W and the lint switches say. False: there is no such warning.
@@ -196,7 +187,7 @@ std::optional<int> apply(ToolOptions& o, const Flags& f) {
     defines.insert(defines.end(), found->macros.begin(), found->macros.end());
   }
   if (const char* folders = std::getenv("SLC_INCLUDE"))
-    for (std::string& folder : split_path(folders))
+    for (std::string& folder : slvm::split_path_list(folders))
       o.compile.preprocess.system_dirs.push_back(std::move(folder));
   o.dependencies_only = f.m || f.mm;
   o.dependencies = f.md || f.mmd;

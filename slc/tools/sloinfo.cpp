@@ -4,6 +4,7 @@
 #include "slc/tools/shader_json.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
+#include "slvm/support/path_list.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -42,29 +43,12 @@ fs::path program_folder() {
 }
 
 // The folders of --path, then where shaders are installed, or lie in a fresh build.
-std::vector<fs::path> search_path(const std::string& text) {
-  std::vector<fs::path> folders = {""};
-  for (size_t at = 0; at < text.size();) {
-    const size_t end = std::min(text.find_first_of(":;", at), text.size());
-    if (end > at) folders.emplace_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  folders.push_back(program_folder() / "../share/anemone/shaders");
-  folders.push_back(program_folder() / "../shaders");
+std::vector<std::string> search_path(const std::string& text) {
+  std::vector<std::string> folders = slvm::split_path_list(text);
+  folders.insert(folders.begin(), "");
+  folders.push_back((program_folder() / "../share/anemone/shaders").string());
+  folders.push_back((program_folder() / "../shaders").string());
   return folders;
-}
-
-// The file an argument stands for: itself, or NAME.slo or NAME.sl in the first folder that has one.
-fs::path find_file(const std::string& name, const std::vector<fs::path>& folders) {
-  std::error_code error;
-  const bool plain = !name.ends_with(".slo") && !name.ends_with(".sl");
-  for (const fs::path& folder : folders) {
-    if (plain)
-      for (const char* suffix : {".slo", ".sl"})
-        if (fs::path file = folder / (name + suffix); fs::is_regular_file(file, error)) return file;
-    if (fs::path file = folder / name; fs::is_regular_file(file, error)) return file;
-  }
-  return {};
 }
 
 class Run {
@@ -98,7 +82,7 @@ private:
   }
 
   void describe(const std::string& input) {
-    const fs::path file = find_file(input, folders_);
+    const fs::path file = slvm::find_shader_file(input, folders_);
     if (file.empty()) return fail(kMissingFile, fmt::format("sloinfo: no shader '{}'", input));
     auto bytes = slvm::read_file(file.string());
     if (!bytes) return fail(kMissingFile, fmt::format("sloinfo: {}", bytes.error()));
@@ -117,8 +101,7 @@ private:
     diags.no_warnings = true;
     slc::CompileOptions compile_options;
     compile_options.evaluator = evaluator_.get();
-    for (const fs::path& folder : folders_)
-      compile_options.preprocess.include_dirs.push_back(folder.string());
+    compile_options.preprocess.include_dirs = folders_;
     auto shaders = compiler_.compile(sources.add(name, std::move(source)), compile_options, sources, diags);
     if (diags.has_errors()) return fail(kBadInput, slvm::format_diagnostics(diags, sources));
     if (shaders.empty())
@@ -148,7 +131,7 @@ private:
   }
 
   const Options& options_;
-  std::vector<fs::path> folders_;
+  std::vector<std::string> folders_;
   slc::Compiler compiler_;
   std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_ = slvm::make_kernel_evaluator();
   std::vector<slc::Inspected> shaders_;

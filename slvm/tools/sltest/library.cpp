@@ -3,6 +3,7 @@
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
+#include "slvm/support/path_list.h"
 #include "slvm/tools/sltest/instrument.h"
 
 #include <fmt/format.h>
@@ -94,19 +95,6 @@ ShaderPtr ShaderLibrary::find(const std::string& name, CompileMode mode, std::sp
   }
   std::string source(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   return compile(file, source, mode, path, error);
-}
-
-std::string find_shader_file(const std::string& name, std::span<const std::string> path) {
-  std::vector<std::string> names = {name};
-  if (!name.ends_with(".sl") && !name.ends_with(".slo")) names = {name + ".slo", name + ".sl", name};
-  std::vector<fs::path> folders(path.begin(), path.end());
-  if (fs::path(name).is_absolute()) folders = {""};
-  std::error_code error;
-  for (const fs::path& folder : folders)
-    for (const std::string& candidate : names)
-      if (fs::path file = (folder / candidate).lexically_normal(); fs::is_regular_file(file, error))
-        return file.string();
-  return "";
 }
 
 } // namespace slvm::sltest

@@ -69,7 +69,4 @@ private:
   std::map<std::string, ShaderPtr> shaders_; ///< by level, name and source
 };
 
-/// The file `name` stands for, or "".
-std::string find_shader_file(const std::string& name, std::span<const std::string> path);
-
 } // namespace slvm::sltest

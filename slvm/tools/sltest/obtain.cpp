@@ -1,6 +1,7 @@
 #include "slvm/tools/sltest/obtain.h"
 
 #include "slvm/format/stale.h"
+#include "slvm/support/path_list.h"
 
 #include <fmt/format.h>
 

@@ -86,7 +86,7 @@ public:
     const WatchOptions& w = options_.watch;
     const bool reports = options_.run_stats || w.coverage || w.profile || w.probe;
     if (options_.print || (options_.outputs.empty() && !reports)) print();
-    if (w.probe) print_probe();
+    if (w.probe && (options_.print || !stores(w.probe->name))) print_probe();
     if (options_.run_stats) print_stats(run, setup_seconds);
     outcome_.out += watch_.report();
     return outcome_;
@@ -245,6 +245,12 @@ private:
         bad(fmt::format("sltest: {}: not finite at {}; first {}", v.name,
                         points.text(static_cast<size_t>(prepared_.grid.nu)), numbers_text(v.at(first))));
     }
+  }
+
+  /// Whether -o takes this variable.
+  bool stores(const std::string& name) const {
+    return std::any_of(options_.outputs.begin(), options_.outputs.end(),
+                       [&](const auto& output) { return output.first == name; });
   }
 
   void print_probe() {

@@ -1,5 +1,6 @@
 #include "slvm/tools/sltest/options.h"
 
+#include "slvm/support/path_list.h"
 #include "slvm/tools/sltest/shapes.h"
 
 #include <CLI/CLI.hpp>
@@ -111,16 +112,6 @@ bool add_light(const std::string& text, Setup& setup, std::string& error) {
   return true;
 }
 
-std::vector<std::string> split_path(const std::string& text) {
-  std::vector<std::string> folders;
-  for (size_t at = 0; at <= text.size();) {
-    const size_t end = std::min(text.find_first_of(":;", at), text.size());
-    if (end > at) folders.push_back(text.substr(at, end - at));
-    at = end + 1;
-  }
-  return folders;
-}
-
 /// "FILE:LINE:NAME".
 bool set_probe(const std::string& text, Options& options) {
   const size_t name = text.rfind(':');
@@ -152,7 +143,7 @@ std::string finish(const Texts& texts, Options& options) {
     return fmt::format("--probe {}: write FILE.sl:LINE:NAME", texts.probe);
   }
   if (!options.watch.coverage_folder.empty()) options.watch.coverage = true;
-  options.path = split_path(texts.path);
+  options.path = split_path_list(texts.path);
   options.config.specialise = !options.no_specialise;
   bool tests = false, shaders = !options.expression.empty();
   for (const std::string& input : options.inputs)
