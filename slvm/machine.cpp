@@ -167,9 +167,8 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
   return instantiate(std::move(shader), given, options, options_.specialise);
 }
 
-std::unique_ptr<Instance> Machine::unspecialised(const Instance& light) const {
-  // What was bound once can be bound again.
-  return std::move(*instantiate(light.shader_, light.bound().given, {light.shader_to_current_, {}}, false));
+Result<std::unique_ptr<Instance>> Machine::unspecialised(const Instance& light) const {
+  return instantiate(light.shader_, light.bound().given, {light.shader_to_current_, {}}, false);
 }
 
 Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader,
@@ -199,7 +198,7 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
 }
 
 void Machine::report(const RuntimeMessage& message) const {
-  std::lock_guard lock(messages_mutex_);
+  std::unique_lock lock(messages_mutex_);
   for (RuntimeMessage& known : messages_)
     if (known.line == message.line && known.file == message.file && known.shader == message.shader &&
         known.severity == message.severity && known.text == message.text) {
@@ -210,6 +209,7 @@ void Machine::report(const RuntimeMessage& message) const {
     }
   if (messages_.size() >= kMaxMessages) return;
   messages_.push_back(message);
+  lock.unlock(); // whoever is told may ask for all messages
   if (options_.on_message) options_.on_message(message);
 }
 

@@ -118,7 +118,8 @@ public:
                                                 const InstanceOptions& = {}) const;
 
   /// A light again, with no value folded into its code: all its parameters can be sent values while it runs.
-  std::unique_ptr<Instance> unspecialised(const Instance& light) const;
+  /// Fails where only the values kept it from a function this build cannot serve.
+  Result<std::unique_ptr<Instance>> unspecialised(const Instance& light) const;
 
   const MachineOptions& options() const { return options_; }
   StringPool& strings() const { return strings_; }

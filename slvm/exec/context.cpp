@@ -128,8 +128,8 @@ void ShadingContext::shade_displaced(const ShaderSet& set, Grid& grid) {
   begin_output(grid, Global::kCi, Global::kCs);
   begin_output(grid, Global::kOi, Global::kOs);
   impl_->announce(Impl::kAtmosphere, set.atmosphere, set.surface);
-  impl_->announce_volumes(set.surface);
-  impl_->announce_volumes(set.atmosphere);
+  const bool surface_asks = set.surface && set.surface->bound().reads_messages;
+  impl_->announce_volumes(surface_asks ? set.surface : set.atmosphere);
   impl_->execute(Impl::kSurface, set.surface);
   impl_->execute(Impl::kAtmosphere, set.atmosphere);
 }

@@ -75,8 +75,17 @@ LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance
 }
 
 const Instance& LightCache::open(const Machine& machine, const Instance& light) {
-  std::unique_ptr<const Instance>& known = open_[light.id()];
-  if (!known) known = machine.unspecialised(light);
+  auto [entry, is_new] = open_.try_emplace(light.id());
+  std::unique_ptr<const Instance>& known = entry->second;
+  if (is_new) {
+    auto again = machine.unspecialised(light);
+    if (again)
+      known = std::move(*again);
+    else
+      machine.report({MessageSeverity::kError, light.program().source_name, 0,
+                      "light \"" + light.shader().name() + "\"",
+                      "no values can be sent to it: " + again.error()});
+  }
   return known ? *known : light;
 }
 

@@ -9,12 +9,18 @@
 namespace slvm {
 namespace {
 
-void message(const GridCall& call, const ShaderRun* other) {
-  Query q(call);
+/// The parameter asked for, or null where `other` has none that the variable can take.
+const Planes* parameter_for(const Query& q, const ShaderRun* other) {
   const Planes* p = other ? other->parameter(q.name) : nullptr;
   bool fits = p && p->type == q.out.type && p->elements == q.elements() &&
               (q.out.planes.step || !p->step); // a uniform variable takes a uniform value
-  if (!fits) return q.not_found();
+  return fits ? p : nullptr;
+}
+
+void message(const GridCall& call, const ShaderRun* other) {
+  Query q(call);
+  const Planes* p = parameter_for(q, other);
+  if (!p) return q.not_found();
   q.give({p->data, p->pitch, p->step, std::max(p->elements, 1u)});
 }
 
@@ -31,18 +37,12 @@ void volume_message(const GridCall& call, bool on_viewers_side) {
       cosine += incident.get(c, point) * normal.get(c, point);
     return cosine > 0;
   };
-  auto volume_at = [&](size_t point) -> const Planes* {
-    const bool interior = seen_from_inside(point) == on_viewers_side;
-    const ShaderRun* volume = interior ? run.state.interior : run.state.exterior;
-    const Planes* p = volume ? volume->parameter(q.name) : nullptr;
-    const bool fits =
-        p && p->type == q.out.type && p->elements == q.elements() && (q.out.planes.step || !p->step);
-    return fits ? p : nullptr;
-  };
+  const Planes *interior = parameter_for(q, run.state.interior),
+               *exterior = parameter_for(q, run.state.exterior);
   q.not_found(); // points without keep what they had
   bool found = false;
   auto take = [&](size_t point, size_t lanes) {
-    const Planes* p = volume_at(point);
+    const Planes* p = seen_from_inside(point) == on_viewers_side ? interior : exterior;
     if (!p) return;
     found = true;
     for (size_t i = 0; i < q.planes(); ++i)

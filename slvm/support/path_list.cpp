@@ -42,7 +42,8 @@ std::string find_shader_file(const std::string& name, std::span<const std::strin
   if (fs::path(name).is_absolute()) folders = {&itself, 1};
   for (size_t i = 0; i < folders.size(); ++i)
     for (const char* suffix : {".slo", ".sl", ""})
-      if (std::string file = find_in_folders(name + suffix, folders.subspan(i, 1)); !file.empty()) return file;
+      if (std::string file = find_in_folders(name + suffix, folders.subspan(i, 1)); !file.empty())
+        return file;
   return "";
 }
 

@@ -11,8 +11,8 @@ namespace slvm {
 /// The folders of "a:b;c". The colon of a drive ("c:/models") separates nothing; empty entries are left out.
 std::vector<std::string> split_path_list(std::string_view text);
 
-/// `name` in the first folder that has such a file ("" is the current one), normalised; absolute names stand for
-/// themselves. "" when there is none.
+/// `name` in the first folder that has such a file ("" is the current one), normalised; absolute names stand
+/// for themselves. "" when there is none.
 std::string find_in_folders(const std::string& name, std::span<const std::string> folders);
 
 /// The same for a shader: a name without .sl or .slo is, in each folder, that of a .slo, a .sl, or a file.

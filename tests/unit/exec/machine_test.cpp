@@ -120,6 +120,22 @@ TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
   EXPECT_EQ(messages[0].points, 10u);
 }
 
+TEST_F(MachineTest, ValuesAreNotSentToLightsThatCannotRunWithThem) {
+  auto light = instantiate(machine, "light l(float w = 1; float traced = 0;) { illuminate (point (0, 0, 0)) {"
+                                    " Cl = w; if (traced == 1) Cl *= trace(Ps, L); } }");
+  services.light_list = {light.get()};
+  auto surface = instantiate(machine, "surface s() { illuminance (P, \"send:light:w\", 5) Ci = Cl; }");
+  Grid grid = square(3, 1);
+  ShadingContext context(machine, services);
+  for (int i = 0; i < 2; ++i)
+    context.shade({.surface = surface.get()}, grid);
+  EXPECT_THAT(red(grid), Each(1.0f));
+  ASSERT_EQ(machine.messages().size(), 1u);
+  EXPECT_EQ(machine.messages()[0].text,
+            "no values can be sent to it: light \"l\" calls 'trace', which this build cannot serve");
+  EXPECT_EQ(machine.messages()[0].times, 1u);
+}
+
 TEST_F(MachineTest, LoopsWithoutEndAreLeft) {
   Machine patient({.most_rounds = 1000});
   auto surface = instantiate(patient, "surface s(output varying float n = 0;) {\n float i = 0;\n"
