@@ -67,7 +67,7 @@ std::vector<std::string> directories(const std::string& option, const char* vari
 
 Arguments parse_arguments(int argc, char** argv) {
   Arguments out;
-  CLI::App app{"slrender: renders RIB scenes with RSL shaders"};
+  CLI::App app("Renders RIB scenes with RSL shaders.", "slrender");
   app.set_help_flag("-h,--help", "print this and leave");
   app.set_version_flag("--version", "slrender 0.1.0 (Anemone)");
   std::string threads = "all", shaders, archives, procedurals;

@@ -376,6 +376,52 @@ TEST(SelectSmallIfs, KeepsBranchesWithEffectsOrCostlyCalls) {
   EXPECT_FALSE(select_small_ifs(m));
 }
 
+TEST(FuseProducts, AProductThatOnlyASumUsesIsComputedWithIt) {
+  Sketch s;
+  ValueId a = s.read("s"), b = s.read("t"), product = s.multiply(a, b);
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.add(s.read("u"), product)}));
+  Module m = s.finish();
+  EXPECT_TRUE(fuse_products(m));
+  EXPECT_EQ(body(m), "  %0: float = slot s\n  %1: float = slot t\n  %2: float = slot u\n"
+                     "  %3: float = call muladd %0, %1, %2\n  %4: color = call convert %3\n"
+                     "  store Ci %4\n  yield\n");
+}
+
+TEST(FuseProducts, AFloatBeforeATripleChangesPlaces) {
+  Sketch s;
+  ValueId product = s.b.call("operator*", "color(float a, color b)", {s.read("s"), s.read("Cs")});
+  s.store("Ci", s.b.call("operator+", "color(color a, color b)", {product, s.read("Os")}));
+  Module m = s.finish();
+  EXPECT_TRUE(fuse_products(m));
+  EXPECT_EQ(body(m), "  %0: float = slot s\n  %1: color = slot Cs\n  %2: color = slot Os\n"
+                     "  %3: color = call muladd %1, %0, %2\n  store Ci %3\n  yield\n");
+}
+
+TEST(FuseProducts, NotWhereOthersNeedTheProductOrItComesFromOutside) {
+  Sketch s;
+  ValueId twice = s.multiply(s.read("s"), s.read("t")), outside = s.multiply(s.read("u"), s.read("v"));
+  auto x = s.branch(
+      s.less(s.read("s"), s.number(1)), {Type::kFloat}, [&] { s.b.yield({s.add(outside, s.number(2))}); },
+      [&] { s.b.yield({s.number(3)}); });
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.add(s.add(twice, x[0]), twice)}));
+  Module m = s.finish();
+  EXPECT_FALSE(fuse_products(m));
+}
+
+TEST(Canonicalise, WhatPrintsOnceIsSettledBeforeAnyOtherPass) {
+  Sketch s;
+  for (ValueId x : {s.number(1), s.read("s")}) {
+    const ValueId args[] = {s.b.string("%f"), x};
+    s.b.call(shadeop_overloads("printf")[1], args, {});
+  }
+  Module m = s.finish();
+  canonicalise(m);
+  std::string text = body(m);
+  EXPECT_NE(text.find("call printonce"), text.npos) << text;
+  EXPECT_NE(text.find("call printf"), text.npos) << text;
+  EXPECT_LT(text.find("call printonce"), text.find("call printf"));
+}
+
 TEST(InferDetail, DivergenceMakesCarriedValuesVarying) {
   Module m = while_loop();
   infer_detail(m);
