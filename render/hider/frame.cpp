@@ -67,7 +67,18 @@ private:
     FrameReport report;
   };
 
+  /// A solid in this frame.
+  struct SolidExtent {
+    float zmin = kInfinity;        ///< nearest depth of all its pieces
+    std::vector<uint8_t> cut_near; ///< for each node of its tree: it reaches in front of the near plane
+  };
+
   void split_all();
+  void measure_solids();
+  uint32_t solid_number(uint32_t task) const {
+    const auto& solid = scene_.primitives[tasks_[task].primitive].state->solid;
+    return solid ? solid->number() : 0;
+  }
   void make_buckets();
   void render_bucket(Bucket& bucket, Worker& worker);
   const ShadedGrid* shaded(uint32_t task, Worker& worker);
@@ -93,6 +104,7 @@ private:
   Image image_;
   std::vector<GridTask> tasks_;
   std::unique_ptr<GridSlot[]> slots_;
+  std::map<const SolidTree*, SolidExtent> solids_;
   std::vector<Bucket> buckets_;
   std::atomic<size_t> next_bucket_{0};
   std::mutex progress_mutex_;
@@ -157,6 +169,26 @@ void FrameRenderer::split_all() {
     part = {};
   }
   slots_ = std::make_unique<GridSlot[]>(tasks_.size());
+  if (scene_.solids > 0) measure_solids();
+}
+
+/// What bounds a solid is known when all its surfaces are: its grids are drawn together, at the turn of the
+/// nearest, or not at all.
+void FrameRenderer::measure_solids() {
+  for (const Primitive& p : scene_.primitives) {
+    if (!p.state->solid) continue;
+    SolidExtent& extent = solids_[p.state->solid.get()];
+    extent.cut_near.resize(p.state->solid->size());
+    if (!(p.camera_bound({}).min.z >= camera_.near_plane())) extent.cut_near[p.state->solid_primitive] = 1;
+  }
+  auto extent_of = [&](const GridTask& task) {
+    const auto& solid = scene_.primitives[task.primitive].state->solid;
+    return solid ? &solids_.at(solid.get()) : nullptr;
+  };
+  for (const GridTask& task : tasks_)
+    if (SolidExtent* e = extent_of(task)) e->zmin = std::min(e->zmin, task.zmin);
+  for (GridTask& task : tasks_)
+    if (SolidExtent* e = extent_of(task)) task.zmin = e->zmin;
 }
 
 void FrameRenderer::make_buckets() {
@@ -186,7 +218,10 @@ void FrameRenderer::make_buckets() {
   }
   tbb::parallel_for(size_t{0}, buckets_.size(), [&](size_t b) {
     std::sort(buckets_[b].tasks.begin(), buckets_[b].tasks.end(), [&](uint32_t x, uint32_t y) {
-      return tasks_[x].zmin != tasks_[y].zmin ? tasks_[x].zmin < tasks_[y].zmin : x < y;
+      if (tasks_[x].zmin != tasks_[y].zmin) return tasks_[x].zmin < tasks_[y].zmin;
+      if (scene_.solids > 0) // the grids of a solid side by side
+        if (uint32_t s = solid_number(x), t = solid_number(y); s != t) return s < t;
+      return x < y;
     });
   });
 }
@@ -252,7 +287,9 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
   std::vector<float> times = motion_times(primitive);
   const Attributes& a = primitive.attributes();
-  if (times.empty() && a.sides == 1 && a.cull_backfacing && faces_away(grid, camera_)) return nullptr;
+  const SolidTree* solid = primitive.state->solid.get();
+  if (times.empty() && a.sides == 1 && a.cull_backfacing && !solid && faces_away(grid, camera_))
+    return nullptr;
   std::vector<slvm::Grid> moved;
   for (size_t i = 1; i < times.size(); ++i) {
     Primitive there = primitive_at(primitive, times[i]);
@@ -267,6 +304,7 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
       primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
   for (size_t i = 0; i < moved.size(); ++i)
     add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
+  if (solid) out->cut_near = solids_.at(solid).cut_near[primitive.state->solid_primitive];
   worker.report.bad_colours += out->bad_colours;
   return out;
 }

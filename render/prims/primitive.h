@@ -3,6 +3,7 @@
 
 #include "render/prims/geometry.h"
 #include "render/prims/primvar.h"
+#include "render/prims/solid.h"
 #include "render/state/attributes.h"
 
 #include <memory>
@@ -23,9 +24,11 @@ struct PrimitiveState {
   std::shared_ptr<const Attributes> attributes;
   Matrix4 object_to_camera; ///< when the shutter opens
   Matrix4 camera_to_object;
-  MotionMatrices motion;        ///< object to camera from time 0 to 1; empty: it stands still
-  bool mirrored = false;        ///< object_to_camera changes handedness
-  float displacement_bound = 0; ///< farthest a displacement shader moves a point, in camera space
+  MotionMatrices motion;                    ///< object to camera from time 0 to 1; empty: it stands still
+  bool mirrored = false;                    ///< object_to_camera changes handedness
+  float displacement_bound = 0;             ///< farthest a displacement shader moves a point, in camera space
+  std::shared_ptr<const SolidTree> solid;   ///< that the surface bounds a primitive of; null: none
+  SolidTree::NodeIndex solid_primitive = 0; ///< which
 };
 
 struct Primitive {

@@ -64,8 +64,9 @@ void Splitter::visit(const Piece& piece) {
   ++pieces_;
   Box box = primitive_.camera_bound(piece.rect);
   // A box that is not a number is of no use to anyone; the negated test catches it.
-  if (!(box.max.z >= camera_.near_plane()) || !(box.min.z <= camera_.far_plane()) || outside_frustum(box))
-    return;
+  // Surfaces of solids count also where they are too far to be seen.
+  bool too_far = !(box.min.z <= camera_.far_plane()) && !primitive_.state->solid;
+  if (!(box.max.z >= camera_.near_plane()) || too_far || outside_frustum(box)) return;
 
   // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the
   // picture.

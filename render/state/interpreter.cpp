@@ -1,5 +1,5 @@
 // The dispatch of requests: which member function carries out which, where they are legal, messages. The
-// requests themselves: interpreter_blocks.cpp, _motion.cpp, _archives.cpp, _conditions.cpp, _options.cpp,
+// requests themselves: interpreter_blocks.cpp, _solids.cpp, _motion.cpp, _archives.cpp, _conditions.cpp, _options.cpp,
 // _attributes.cpp, _transforms.cpp, _geometry.cpp.
 #include "render/state/interpreter.h"
 
@@ -103,7 +103,11 @@ void Interpreter::carry_out(const RequestCall& call) {
 }
 
 void Interpreter::call_handler(const RequestCall& call) {
-  if (Handler h = handler(call.id)) (this->*h)(call);
+  Handler h = handler(call.id);
+  if (h && solid_.in_operation() && is_primitive(call.id))
+    call_in_operation(call);
+  else if (h)
+    (this->*h)(call);
 }
 
 bool Interpreter::legal(const RequestCall& call) {

@@ -70,6 +70,7 @@ private:
     Matrix4 ctm;
     MotionMatrices motion;
     std::optional<Options> options;
+    SolidPlace solid;
     // of conditions
     bool taken = false;       ///< one of its branches was
     bool last_branch = false; ///< Else has been seen
@@ -130,6 +131,7 @@ private:
   void transform_end(const RequestCall&);
   void solid_begin(const RequestCall&);
   void solid_end(const RequestCall&);
+  void call_in_operation(const RequestCall&);
   void motion_begin(const RequestCall&);
   void motion_end(const RequestCall&);
   bool moved_by_motion_block(const RequestCall&);
@@ -255,6 +257,7 @@ private:
   MotionMatrices motion_;       ///< the same at the times of motion blocks; empty: it stands still
   MotionMatrices world_motion_; ///< world to camera of a moving camera
   std::optional<MotionBlock> in_motion_;
+  SolidPlace solid_; ///< the innermost solid block
   std::vector<Block> blocks_;
   std::map<std::string, std::shared_ptr<const ShaderRequest>> lights_;
   std::map<std::string, Matrix4> spaces_;

@@ -1,4 +1,4 @@
-// Blocks: frames, worlds, attributes, transformations, solids.
+// Blocks: frames, worlds, attributes, transformations. Solids: interpreter_solids.cpp.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ constexpr std::string_view kBlockNames[] = {"FrameBegin", "WorldBegin",  "Attrib
 
 void Interpreter::open(const RequestCall& call, BlockKind kind) {
   if (blocks_.size() == kMaxBlocks) error(call, fmt::format("more than {} nested blocks", kMaxBlocks));
-  blocks_.push_back({kind, call.where, attributes_, ctm_, motion_, {}, false, false});
+  blocks_.push_back({kind, call.where, attributes_, ctm_, motion_, {}, solid_, false, false});
 }
 
 /// Restores what the innermost block of this kind saved. Blocks left open inside it are reported and closed
@@ -41,13 +41,14 @@ bool Interpreter::close(const RequestCall& call, BlockKind kind) {
     d.notes.push_back({blocks_[i - 1].where, fmt::format("{} stands here", inner)});
   }
   const Block& block = blocks_[at - 1];
-  if (kind == BlockKind::kFrame || kind == BlockKind::kWorld || kind == BlockKind::kAttribute)
-    attributes_ = block.attributes;
-  if (kind <= BlockKind::kTransform) {
+  // Solids, too, save all (RISpec 3.2, 4).
+  if (kind <= BlockKind::kSolid) {
+    if (kind != BlockKind::kTransform) attributes_ = block.attributes;
     ctm_ = block.ctm;
     motion_ = block.motion;
   }
   if (block.options) options_ = *block.options;
+  solid_ = block.solid;
   blocks_.resize(at - 1);
   return true;
 }
@@ -115,12 +116,6 @@ void Interpreter::transform_begin(const RequestCall& call) {
 }
 void Interpreter::transform_end(const RequestCall& call) {
   close(call, BlockKind::kTransform);
-}
-void Interpreter::solid_begin(const RequestCall& call) {
-  open(call, BlockKind::kSolid);
-}
-void Interpreter::solid_end(const RequestCall& call) {
-  close(call, BlockKind::kSolid);
 }
 
 } // namespace render

@@ -74,7 +74,11 @@ void Interpreter::procedural(const RequestCall& call) {
   if (p.bound.empty()) {
     error_at(call.arguments[2].where, call, "the bound is empty; expected xmin xmax ymin ymax zmin zmax");
     procedurals_.pop_back();
+    return;
   }
+  // The solids it makes come late: their place among the operands is kept.
+  p.solid = solid_;
+  if (solid_.in_operation()) p.solid.node = solid_.tree->add(SolidOperation::kUnion, solid_.node);
 }
 
 /// Called between the closing of the world and its rendering. Those found on the way join the row.
@@ -106,6 +110,7 @@ void Interpreter::run(const Procedural& p, float area) {
   Matrix4 ctm = std::exchange(ctm_, p.object_to_camera);
   MotionMatrices motion = std::exchange(motion_, p.motion);
   std::string folder = std::exchange(folder_, p.folder);
+  SolidPlace solid = std::exchange(solid_, p.solid);
   std::vector<Block> blocks = std::exchange(blocks_, {});
   procedural_depth_ = p.depth;
   ++depth_;
@@ -120,6 +125,7 @@ void Interpreter::run(const Procedural& p, float area) {
   skip_depth_ = 0;
   in_motion_.reset();
   blocks_ = std::move(blocks);
+  solid_ = solid;
   folder_ = folder;
   ctm_ = ctm;
   motion_ = std::move(motion);

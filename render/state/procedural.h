@@ -20,6 +20,7 @@ struct Procedural {
   std::shared_ptr<Attributes> attributes;
   Matrix4 object_to_camera; ///< when the shutter opens
   MotionMatrices motion;    ///< when it moves
+  SolidPlace solid;         ///< the solid block it stands in
   std::string folder;       ///< of the file it stands in
   int depth = 0;            ///< procedurals it came from
   slvm::SourceRange where;

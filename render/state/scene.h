@@ -16,6 +16,7 @@ struct Scene {
   /// Spaces named by CoordinateSystem, to camera.
   std::map<std::string, Matrix4> spaces;
   std::vector<Primitive> primitives;
+  uint32_t solids = 0; ///< so many CSG solids bound some of them
 };
 
 } // namespace render
