@@ -15,6 +15,7 @@
 
 namespace render {
 
+class BlobbyGround;
 struct SubdivisionMesh;
 
 /// Values of each storage class a primitive takes (rib-reference: class sizes).
@@ -227,6 +228,7 @@ private:
   void curves(const RequestCall&);
   void points(const RequestCall&);
   void blobby(const RequestCall&);
+  std::shared_ptr<const BlobbyGround> blobby_ground(const RequestCall&, int string);
   void trim_curve(const RequestCall&);
   std::optional<bool> wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.

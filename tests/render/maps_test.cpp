@@ -39,6 +39,16 @@ protected:
     return path(name);
   }
 
+  /// Renders a scene; its messages.
+  static std::string run(const std::string& rib) {
+    slvm::SourceManager sources;
+    slvm::Diagnostics diagnostics;
+    Renderer renderer(sources, diagnostics);
+    renderer.read_text("scene.rib", rib);
+    renderer.finish();
+    return format_diagnostics(diagnostics, sources);
+  }
+
   /// One lookup of a region that is a point unless `width` says more.
   Color look_up(std::string (TextureMaps::*call)(const slvm::TextureLookup&), const std::string& map, Vec3 at,
                 float width = 0) {
@@ -190,14 +200,6 @@ TEST_F(Maps, missing_maps_are_found_under_other_names) {
 }
 
 TEST_F(Maps, a_rendered_depth_becomes_a_shadow_map_and_a_mask) {
-  auto run = [&](const std::string& rib) {
-    slvm::SourceManager sources;
-    slvm::Diagnostics diagnostics;
-    Renderer renderer(sources, diagnostics);
-    renderer.read_text("scene.rib", rib);
-    renderer.finish();
-    return format_diagnostics(diagnostics, sources);
-  };
   std::string head = "Format 16 16 1 PixelFilter \"box\" 1 1 ";
   EXPECT_EQ(run(head + "PixelSamples 2 2 Hider \"hidden\" \"int jitter\" 0 \"int subpixel\" 1 Display \"" +
                 path("d.z") +
@@ -224,6 +226,27 @@ TEST_F(Maps, a_rendered_depth_becomes_a_shadow_map_and_a_mask) {
   EXPECT_THAT(
       run("Hider \"depthmask\" \"zfile\" \"nowhere.z\" Display \"x\" \"null\" \"rgb\" WorldBegin WorldEnd"),
       HasSubstr("Hider: \"nowhere.z\": no such file in the texture search path"));
+}
+
+TEST_F(Maps, a_blobby_is_repelled_by_what_a_depth_image_shows) {
+  // The ground is a disk at world z = 4; the ball around it would reach to z = 5.
+  std::string frame = "Format 32 32 1 PixelSamples 2 2 ";
+  std::string ball =
+      "Blobby 2 [1001 0 1003 0 16 0 2 0 1] [2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1  .4 .02 .2 .1] [\"" +
+      path("ground.z") + "\"] ";
+  EXPECT_EQ(run("FrameBegin 1 " + frame + "Display \"" + path("ground.z") +
+                "\" \"zfile\" \"z\" WorldBegin Translate 0 0 4 Disk 0 3 360 WorldEnd FrameEnd FrameBegin 2 " +
+                frame + "Display \"" + path("ball.exr") +
+                "\" \"openexr\" \"z\" Rotate 180 0 1 0 Translate 0 0 -9 WorldBegin Translate 0 0 4 " + ball +
+                "WorldEnd FrameEnd"),
+            "");
+  // Seen from behind at z = 9, its back is flat and close to the ground: without it the depth would be 4.
+  OIIO::ImageBuf z(path("ball.exr"));
+  float depth = 0;
+  ASSERT_TRUE(z.read());
+  z.getpixel(16, 16, &depth, 1);
+  EXPECT_GT(depth, 5);
+  EXPECT_LT(depth, 5.1f);
 }
 
 } // namespace
