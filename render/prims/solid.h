@@ -49,6 +49,10 @@ struct SolidPlace {
 
   bool in_operation() const { return tree && (*tree)[node].operation != SolidOperation::kPrimitive; }
   bool in_primitive() const { return tree && !in_operation(); }
+  /// Whether there is something to work out: a primitive by itself is what it would be without the block.
+  bool is_operand() const {
+    return tree && (*tree)[SolidTree::kRoot].operation != SolidOperation::kPrimitive;
+  }
 };
 
 /// Whether a point is inside a solid, kept up to date while it crosses surfaces. It starts outside of all

@@ -1,6 +1,6 @@
 // The dispatch of requests: which member function carries out which, where they are legal, messages. The
-// requests themselves: interpreter_blocks.cpp, _solids.cpp, _motion.cpp, _archives.cpp, _conditions.cpp, _options.cpp,
-// _attributes.cpp, _transforms.cpp, _geometry.cpp.
+// requests themselves: interpreter_blocks.cpp, _solids.cpp, _motion.cpp, _archives.cpp, _conditions.cpp,
+// _options.cpp, _attributes.cpp, _transforms.cpp, _geometry.cpp.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>

@@ -134,8 +134,7 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
   state->camera_to_object = inverse_or_identity(ctm_);
   state->mirrored = slvm::determinant3(ctm_) < 0;
   state->displacement_bound = displacement_bound_of(*attributes_, ctm_);
-  // A "primitive" by itself is what it would be without the block.
-  if (solid_.in_primitive() && solid_.node != SolidTree::kRoot) {
+  if (solid_.is_operand()) {
     state->solid = solid_.tree;
     state->solid_primitive = solid_.node;
   }

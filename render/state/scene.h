@@ -3,12 +3,21 @@
 
 #include "render/prims/primitive.h"
 #include "render/state/options.h"
+#include "render/state/procedural.h"
 
 #include <map>
 #include <string>
 #include <vector>
 
 namespace render {
+
+/// What a procedural holds.
+struct SceneContent {
+  std::vector<Primitive> primitives;
+  std::vector<Procedural> procedurals;
+  /// Spaces that CoordinateSystem named in it, to camera.
+  std::map<std::string, Matrix4> spaces;
+};
 
 struct Scene {
   Options options;
@@ -17,6 +26,8 @@ struct Scene {
   std::map<std::string, Matrix4> spaces;
   std::vector<Primitive> primitives;
   uint32_t solids = 0; ///< so many CSG solids bound some of them
+  /// Geometry that is made when the picture comes to it: Interpreter::make_content.
+  std::vector<Procedural> procedurals;
 };
 
 } // namespace render

@@ -294,6 +294,20 @@ TEST(Solids, procedurals_bring_surfaces_and_solids) {
                                              sphere(0.8f, 0, 0, 0.2f)));
   EXPECT_NEAR(r.z(32, 32), 4.7f, 0.002f);
   EXPECT_NEAR(r.covered(), M_PI * std::pow(32 * 0.9, 2), 40);
+  // A whole solid that is made when a bucket comes to it, some of it by another procedural.
+  folder.write("bitten.rib", solid("difference", delayed("solids.rib") + sphere(0, 0, -0.9f, 0.6f)));
+  std::string two = "Opacity .5 .5 .5 " + delayed("bitten.rib") + "Translate .3 0 0 " + delayed("bitten.rib");
+  FrameSettings one;
+  one.threads = 1;
+  r = world(two, "Option \"limits\" \"bucketsize\" [8 8]", one);
+  EXPECT_NEAR(r.z(8, 32), 5, 0.6f);
+  EXPECT_NEAR(r.alpha(8, 32), 0.75f, 1e-5f);
+  EXPECT_EQ(world(two).image.data, r.image.data);
+  EXPECT_EQ(
+      world("Opacity .5 .5 .5 " + solid("difference", sphere(0, 0, 0, 0.9f) + sphere(0, 0, -0.9f, 0.6f)) +
+            "Translate .3 0 0 " + solid("difference", sphere(0, 0, 0, 0.9f) + sphere(0, 0, -0.9f, 0.6f)))
+          .alpha(50, 20),
+      r.alpha(50, 20));
 }
 
 TEST(Solids, misuse_is_reported) {
