@@ -89,7 +89,7 @@ private:
   size_t aovs_; ///< floats of variables for each sample
   std::vector<float> sample_aov_, fragment_aov_;
   std::vector<const Fragment*> scratch_;
-  const SolidTree* solid_ = nullptr; ///< whose grids are being drawn
+  std::shared_ptr<const SolidTree> solid_; ///< whose grids are being drawn
   SolidHits solid_hits_;
   std::vector<float> solid_aov_;
   size_t open_;

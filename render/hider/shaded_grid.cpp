@@ -85,7 +85,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
         out.aov[k * static_cast<size_t>(out.aov_floats) + static_cast<size_t>(c.first + i)] =
             planes->get(static_cast<size_t>(i), k);
   }
-  out.solid = primitive.state->solid.get();
+  out.solid = primitive.state->solid;
   out.solid_primitive = primitive.state->solid_primitive;
   out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), ShadedGrid::kDrawn);
   hide_behind_eye(grid, camera, out);

@@ -23,7 +23,7 @@ struct ShadedGrid {
   /// For each micropolygon. What faces away and must not be seen still bounds a solid.
   enum Visibility : uint8_t { kDrawn, kNotDrawn, kFacesAway };
   std::vector<uint8_t> hidden;
-  const SolidTree* solid = nullptr; ///< that the surface belongs to; null: none
+  std::shared_ptr<const SolidTree> solid; ///< that the surface belongs to; null: none
   SolidTree::NodeIndex solid_primitive = 0;
   bool cut_near = false; ///< the solid's primitive reaches in front of the near plane
   bool matte = false;
