@@ -152,6 +152,10 @@ void FrameRenderer::split_all() {
     for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
       split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
   });
+  size_t tasks = 0;
+  for (const auto& part : parts)
+    tasks += part.size();
+  batch_.tasks.reserve(tasks);
   for (auto& part : parts) {
     batch_.tasks.insert(batch_.tasks.end(), part.begin(), part.end());
     part = {};

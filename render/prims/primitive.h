@@ -2,7 +2,7 @@
 #pragma once
 
 #include "render/prims/geometry.h"
-#include "render/prims/primvar.h"
+#include "render/prims/patch_vars.h"
 #include "render/prims/solid.h"
 #include "render/state/attributes.h"
 
@@ -34,7 +34,7 @@ struct PrimitiveState {
 struct Primitive {
   std::shared_ptr<const PrimitiveState> state;
   std::shared_ptr<const Geometry> geometry; ///< when the shutter opens
-  std::vector<PatchVar> vars;
+  PatchVars vars;
   /// The part of the shaders' u and v that this surface is: patches of a mesh share one square.
   UvRect uv = {};
   MotionShapes deformation = {}; ///< from time 0 to 1; empty: it keeps its shape

@@ -47,7 +47,8 @@ void Interpreter::curves(const RequestCall& call) {
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
   auto state = primitive_state();
-  add_curves(layout, counts, P, vars, eye_in_object(options_, *state), state, scene_.primitives);
+  add_curves(layout, counts, std::move(P), std::move(vars), eye_in_object(options_, *state), state,
+             scene_.primitives);
 }
 
 void Interpreter::points(const RequestCall& call) {
@@ -57,7 +58,7 @@ void Interpreter::points(const RequestCall& call) {
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
   auto state = primitive_state();
-  add_points(P, vars, eye_in_object(options_, *state), state, scene_.primitives);
+  add_points(std::move(P), std::move(vars), eye_in_object(options_, *state), state, scene_.primitives);
 }
 
 /// The depth image that a ground of a Blobby names. Null, with a message: it cannot be had.

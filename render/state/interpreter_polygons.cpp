@@ -27,9 +27,12 @@ void Interpreter::polygon(const RequestCall& call) {
     error(call, fmt::format("a polygon has at least 3 vertices, found {}", n));
     return;
   }
-  std::vector<int> vertices(n);
-  std::iota(vertices.begin(), vertices.end(), 0);
-  add_polygon({vertices, 0, 0, loops}, P, vars, primitive_state(), scene_.primitives);
+  PolygonFaces face;
+  face.vertices.resize(n);
+  std::iota(face.vertices.begin(), face.vertices.end(), 0);
+  face.loops_of_face = {static_cast<int>(loops.size())};
+  face.loops = std::move(loops);
+  add_polygons(std::move(face), std::move(P), std::move(vars), primitive_state(), scene_.primitives);
 }
 
 /// The number of corners of all loops. Nothing, with a message at argument `i`: a loop is too short.
@@ -97,16 +100,10 @@ void Interpreter::points_polygons(const RequestCall& call) {
   std::vector<TypedParam> vars = primitive_vars(call, {loops_of_face.size(), *points, *points, *corners});
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
-  auto state = primitive_state();
   std::span<const int> vertices = call.integers(static_cast<int>(first_argument + 1));
-  size_t first = 0, loop = 0;
-  for (size_t i = 0; i < loops_of_face.size(); ++i) {
-    std::span<const int> own = loops.subspan(loop, static_cast<size_t>(loops_of_face[i]));
-    auto n = static_cast<size_t>(std::accumulate(own.begin(), own.end(), 0));
-    add_polygon({vertices.subspan(first, n), i, first, own}, P, vars, state, scene_.primitives);
-    first += n;
-    loop += own.size();
-  }
+  PolygonFaces faces{{vertices.begin(), vertices.end()}, {loops.begin(), loops.end()}, {}};
+  if (general) faces.loops_of_face = std::move(loops_of_face);
+  add_polygons(std::move(faces), std::move(P), std::move(vars), primitive_state(), scene_.primitives);
 }
 
 } // namespace render
