@@ -16,11 +16,11 @@ using Vec3d = glm::dvec3;
 class SmoothQuad final : public Geometry {
 public:
   SmoothQuad(const std::array<Vec3, 4>& points, const std::array<Vec3, 4>& normals)
-      : flat_(make_bilinear(points)), normals_(normals) {}
-  Box bound(const UvRect& r) const override { return flat_->bound(r); }
+      : flat_(points), normals_(normals) {}
+  Box bound(const UvRect& r) const override { return flat_.bound(r); }
   bool ruled() const override { return true; }
   void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    flat_->evaluate(u, v, out);
+    flat_.evaluate(u, v, out);
     size_t k = 0;
     for (float b : v)
       for (float a : u)
@@ -29,7 +29,7 @@ public:
   }
 
 private:
-  std::shared_ptr<const Geometry> flat_;
+  BilinearPatch flat_;
   std::array<Vec3, 4> normals_;
 };
 

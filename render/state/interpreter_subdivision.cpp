@@ -100,12 +100,13 @@ bool Interpreter::subdivision_tags(const RequestCall& call, size_t points, Subdi
 
 void Interpreter::subdivision_mesh(const RequestCall& call) {
   const std::string& scheme = call.text(0);
-  if (scheme != "catmull-clark" && scheme != "bilinear")
+  if (scheme != "catmull-clark" && scheme != "bilinear" && scheme != "loop")
     diagnostics_.warning(
         call.arguments[0].where, "rib",
         fmt::format("{}: scheme \"{}\" is not known; read as \"catmull-clark\"", call.info().name, scheme));
   SubdivisionMesh mesh;
   mesh.bilinear = scheme == "bilinear";
+  mesh.loop = scheme == "loop";
   mesh.nvertices = call.integers(1);
   mesh.vertices = call.integers(2);
   auto corners = check_loops(call, 1, mesh.nvertices);
