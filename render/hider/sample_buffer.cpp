@@ -229,6 +229,7 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
   Sample& sample = samples_[index];
   if (z >= (midpoint_ ? sample.second : sample.z) || z < settings_.near_plane || z > settings_.far_plane)
     return;
+  if (!grid.level.whole() && !grid.level.has(pattern_.level(index))) return;
   if (removed(index, z)) return;
   // corners[0] is the micropolygon's own corner, whose colour it has throughout without smooth shading.
   Color Ci = grid.Ci[corners[0]], Oi = grid.Oi[corners[0]];

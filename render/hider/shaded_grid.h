@@ -22,6 +22,7 @@ struct ShadedGrid {
   int aov_floats = 0;
   std::vector<uint8_t> hidden; ///< for each micropolygon: not to be drawn
   bool matte = false;
+  LevelPart level; ///< the samples that see it
   bool smooth = false;
   size_t bad_colours = 0; ///< points whose colour was not a finite number; they became black and opaque
 

@@ -252,6 +252,7 @@ void add_curves(const CurveLayout& layout, std::span<const int> points_of_curve,
       Primitive& primitive = out.emplace_back();
       primitive.state = state;
       primitive.geometry = maker.geometry(s, point(k - 1), point(k + 2));
+      primitive.one_across = state->attributes->dicing.hair;
       primitive.uv = {0, 1, static_cast<float>(k) / static_cast<float>(segments),
                       static_cast<float>(k + 1) / static_cast<float>(segments)};
       for (const TypedParam& v : vars)

@@ -134,6 +134,7 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
   state->camera_to_object = inverse_or_identity(ctm_);
   state->mirrored = slvm::determinant3(ctm_) < 0;
   state->displacement_bound = displacement_bound_of(*attributes_, ctm_);
+  state->level = attributes_->detail.part();
   return state;
 }
 

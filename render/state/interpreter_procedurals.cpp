@@ -90,7 +90,7 @@ void Interpreter::run_procedurals() {
       report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
       continue;
     }
-    run(p, *area);
+    run(p, *area * scene_.options.relative_detail);
   }
   procedurals_.clear();
 }
