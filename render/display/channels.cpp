@@ -250,7 +250,15 @@ std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& 
       if (options.imager) out.add_picture(c.aov);
     }
   }
-  return out.take();
+  std::vector<AovChannel> list = out.take();
+  for (const auto& [name, q] : options.channel_quantization)
+    if (std::none_of(list.begin(), list.end(), [&](const AovChannel& a) { return a.name == name; }))
+      diagnostics.warning(
+          {}, "display",
+          fmt::format("Quantize \"{0}\" has no effect: no Display shows a channel \"{0}\"; known "
+                      "for all are \"rgba\" and \"z\"",
+                      name));
+  return list;
 }
 
 std::vector<FileChannel> file_channels(const Options& options, const DisplayRequest& d,

@@ -177,6 +177,8 @@ void Interpreter::shading_interpolation(const RequestCall& call) {
 }
 
 void Interpreter::matte(const RequestCall& call) {
+  if (call.integer(0) != 0 && call.integer(0) != 1)
+    warn(call, fmt::format("{} is taken as 1: there is one kind of hole", call.integer(0)));
   edit().matte = call.integer(0) != 0;
 }
 

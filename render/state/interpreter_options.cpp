@@ -93,6 +93,7 @@ void Interpreter::clipping_plane(const RequestCall& call) {
 }
 
 void Interpreter::shutter(const RequestCall& call) {
+  if (call.number(1) < call.number(0)) warn(call, "it closes before it opens: nothing moves");
   options_.shutter_open = call.number(0);
   options_.shutter_close = call.number(1);
 }
@@ -104,6 +105,9 @@ void Interpreter::pixel_samples(const RequestCall& call) {
     error(call, fmt::format("expected 1 to {} samples in each direction", kMost));
   options_.xsamples = static_cast<int>(std::clamp(std::round(x), 1.0f, kMost));
   options_.ysamples = static_cast<int>(std::clamp(std::round(y), 1.0f, kMost));
+  if (x != std::round(x) || y != std::round(y))
+    warn(call, fmt::format("{:g} by {:g} samples are rounded to {} by {}", x, y, options_.xsamples,
+                           options_.ysamples));
 }
 
 void Interpreter::pixel_filter(const RequestCall& call) {
@@ -288,6 +292,7 @@ void Interpreter::make_request(const RequestCall& call) {
   if (auto widths = make_widths(call); widths && (*widths)[0] * (*widths)[1] != 1)
     warn_once("make widths", call.where, "rib-unsupported",
               "filters of maps have a width of their own: swidth and twidth have no effect");
+  no_parameters(call);
   if (std::string why = make_map(call, options_); !why.empty()) error(call, why);
 }
 

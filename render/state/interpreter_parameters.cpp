@@ -80,6 +80,16 @@ bool Interpreter::check_parameter(const RequestCall& call, const ParameterPlace&
   return true;
 }
 
+void Interpreter::no_parameters(const RequestCall& call) {
+  for (const Param& p : call.params)
+    no_parameter(call, p);
+}
+
+void Interpreter::no_parameter(const RequestCall& call, const Param& p) {
+  std::string what = title(call.info().name, "", p.token);
+  warn_once(what, p.where, "rib-unsupported", fmt::format("{} is not known and has no effect", what));
+}
+
 void Interpreter::unknown_parameter(const ParameterPlace& place, const std::string& name) {
   if (place.table == RequestId::kDisplay) {
     // "tiff:planarconfig": its writer knows what for.

@@ -121,10 +121,12 @@ TEST(Detail, conditions_and_procedurals_know_it) {
   EXPECT_EQ(r.Ci(32, 32), Color(0, 1, 0));
   // Outside its range a procedural is not even looked for.
   std::string procedural = " Procedural \"DelayedReadArchive\" [\"nowhere.rib\"] [-1 1 -1 1 -1 1] WorldEnd";
-  EXPECT_EQ(messages_of("WorldBegin Translate 0 0 5 Detail [-.1 .1 -.1 .1 0 0] DetailRange 1e6 1e6 1e7 1e7" +
-                        procedural),
-            "");
-  EXPECT_THAT(messages_of("WorldBegin Translate 0 0 5" + procedural), HasSubstr("nowhere.rib"));
+  auto messages_when_drawn = [](const std::string& rib) { return render_text(rib).messages; };
+  EXPECT_EQ(
+      messages_when_drawn(
+          "WorldBegin Translate 0 0 5 Detail [-.1 .1 -.1 .1 0 0] DetailRange 1e6 1e6 1e7 1e7" + procedural),
+      "");
+  EXPECT_THAT(messages_when_drawn("WorldBegin Translate 0 0 5" + procedural), HasSubstr("nowhere.rib"));
 }
 
 TEST(Detail, mistakes) {

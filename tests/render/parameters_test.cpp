@@ -108,6 +108,23 @@ TEST(Parameters, wrong_types_are_errors_and_change_nothing) {
   EXPECT_EQ(messages_of("Option \"limits\" \"othreshold\" [.5] \"zthreshold\" [.5 .5 .5]"), "");
 }
 
+TEST(Parameters, requests_that_take_none_and_other_things_without_effect) {
+  EXPECT_THAT(messages_of("ArchiveBegin \"a\" \"int x\" 1 ArchiveEnd"),
+              HasSubstr("ArchiveBegin \"int x\" is not known and has no effect"));
+  EXPECT_THAT(messages_of("ArchiveBegin \"a\" ArchiveEnd ArchiveInstance \"a\" \"int frame\" 36"),
+              HasSubstr("ArchiveInstance \"int frame\" is not known and has no effect"));
+  EXPECT_THAT(messages_of("ArchiveBegin \"a\" ArchiveEnd ReadArchive \"a\" \"int frame\" 36"),
+              HasSubstr("ReadArchive \"int frame\" is not known and has no effect"));
+  EXPECT_THAT(messages_of("Shutter 1 0"), HasSubstr("Shutter: it closes before it opens: nothing moves"));
+  EXPECT_THAT(messages_of("PixelSamples 1.4 2"),
+              HasSubstr("PixelSamples: 1.4 by 2 samples are rounded to 1 by 2"));
+  EXPECT_THAT(messages_of("Matte 2"), HasSubstr("Matte: 2 is taken as 1: there is one kind of hole"));
+  EXPECT_THAT(messages_of("DepthOfField 1 1 1 WorldBegin WorldEnd"),
+              HasSubstr("DepthOfField has no effect: orthographic cameras have no lens"));
+  EXPECT_THAT(render_text("Quantize \"glow\" 255 0 255 .5 WorldBegin WorldEnd").messages,
+              HasSubstr("Quantize \"glow\" has no effect: no Display shows a channel \"glow\""));
+}
+
 TEST(Parameters, hiders_that_are_not_there) {
   EXPECT_THAT(
       messages_of("Hider \"paint\""),
