@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include "render/display/output.h"
+#include "render/display/preview.h"
 #include "render/hider/frame.h"
 #include "render/map_requests.h"
 #include "render/shading/vm_shading.h"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -53,18 +55,27 @@ TextureMaps::Settings texture_settings(const Options& options) {
   TextureMaps::Settings s;
   if (auto it = options.search_paths.find("texture"); it != options.search_paths.end())
     s.folders = it->second;
-  if (auto it = options.named.find("shadow:bias");
-      it != options.named.end() && it->second.numbers.size() == 1)
-    s.shadow_bias = it->second.numbers[0];
+  auto named = [&](const char* name, float otherwise) {
+    auto it = options.named.find(name);
+    return it == options.named.end() ? otherwise : it->second.numbers[0];
+  };
+  s.shadow_bias = named("shadow:bias", s.shadow_bias);
+  // bias0 and bias1 are the ends of a range.
+  if (options.named.contains("shadow:bias0") && options.named.contains("shadow:bias1")) {
+    s.shadow_bias = named("shadow:bias0", 0);
+    s.shadow_bias_spread = named("shadow:bias1", 0) - s.shadow_bias;
+  }
+  s.memory_megabytes = options.texture_megabytes;
   return s;
 }
 
 } // namespace
 
 void Renderer::Impl::render(Scene& frame) {
+  if (frame.options.no_image) return;
   if (frame.options.displays.empty()) frame.options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
   FrameSettings s;
-  s.threads = settings.threads;
+  s.threads = settings.threads > 0 ? settings.threads : frame.options.threads;
   s.aovs = display_aovs(frame.options, diagnostics);
   s.progress = settings.progress;
   using Clock = std::chrono::steady_clock;
@@ -90,8 +101,16 @@ void Renderer::Impl::render(Scene& frame) {
   FrameReport& report = statistics.report;
   statistics.bind_seconds = seconds_since(started);
   started = Clock::now();
+  std::optional<Preview> preview;
+  if (!settings.preview.empty()) {
+    preview.emplace(frame.options, s.aovs, settings.preview);
+    s.finished = [&](const Image& pixels, const PixelRect& rect) { preview->add(pixels, rect); };
+  }
   Image image = render_frame(frame, shading, s, report);
   statistics.render_seconds = seconds_since(started);
+  if (preview)
+    if (std::string why = preview->finish(); !why.empty())
+      diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
   for (const auto& [wanted, used] : textures.replaced())
     if (replaced.insert(wanted).second)

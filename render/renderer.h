@@ -33,6 +33,8 @@ struct RendererSettings {
   std::function<void(Options&)> override_options;
   /// Called before and during a frame with the finished fraction; never from two threads at once.
   std::function<void(double)> progress;
+  /// A PNG file that shows what is finished of a frame while it is rendered (display/preview.h). Empty: none.
+  std::string preview;
   /// Called before each frame is rendered and after it is written: a chance to show messages early.
   std::function<void()> flush_messages;
   /// Called after each frame with what it cost.

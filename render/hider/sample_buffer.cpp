@@ -247,6 +247,7 @@ Color colour_of(const ShadedGrid& grid, const std::vector<Color>& colours, const
 
 void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3],
                        const float (&weights)[3], float z) {
+  if (!grid.level.whole() && !grid.level.has(pattern_.level(index))) return;
   if (grid.solid) {
     hit_solid(grid, index, corners, weights, z);
     return;

@@ -36,12 +36,15 @@ void hide_behind_eye(const slvm::Grid& grid, const Camera& camera, ShadedGrid& o
   });
 }
 
-void hide_back_faces(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
-  float sign = grid.flip_normals ? -1.0f : 1.0f;
+/// `tolerance`: degrees that a micropolygon may face away and still be drawn.
+void hide_back_faces(const slvm::Grid& grid, const Camera& camera, float tolerance, ShadedGrid& out) {
+  float sign = grid.flip_normals ? -1.0f : 1.0f, sine = std::sin(radians(tolerance));
   hide_where(grid, out, out.solid ? ShadedGrid::kFacesAway : ShadedGrid::kNotDrawn, [&](const Vec3(&p)[4]) {
     // The two diagonals span the plane of the micropolygon also where a side has collapsed.
     Vec3 normal = glm::cross(p[3] - p[0], p[2] - p[1]) * sign;
-    return glm::dot(normal, camera.incident((p[0] + p[3]) * 0.5f)) > 0;
+    Vec3 I = camera.incident((p[0] + p[3]) * 0.5f);
+    float limit = sine > 0 ? sine * glm::length(normal) * glm::length(I) : 0;
+    return glm::dot(normal, I) > limit;
   });
 }
 
@@ -56,6 +59,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   out.nv = grid.nv();
   out.matte = a.matte;
   out.smooth = a.smooth_shading;
+  out.level = primitive.state->level;
   size_t points = grid.points();
   const slvm::Planes &P = grid.variable(slvm::Global::kP), &Ci = grid.variable(slvm::Global::kCi),
                      &Oi = grid.variable(slvm::Global::kOi);
@@ -89,7 +93,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   out.solid_primitive = primitive.state->solid_primitive;
   out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), ShadedGrid::kDrawn);
   hide_behind_eye(grid, camera, out);
-  if (a.sides == 1) hide_back_faces(grid, camera, out);
+  if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
   if (outline) snap_to_outline(*outline, out.nu, out.nv, out.position);
   return out;
 }

@@ -27,6 +27,7 @@ struct ShadedGrid {
   SolidTree::NodeIndex solid_primitive = 0;
   bool cut_near = false; ///< the solid's primitive reaches in front of the near plane
   bool matte = false;
+  LevelPart level; ///< the samples that see it
   bool smooth = false;
   size_t bad_colours = 0; ///< points whose colour was not a finite number; they became black and opaque
 

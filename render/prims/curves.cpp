@@ -431,6 +431,7 @@ void add_curves(const CurveLayout& layout, std::span<const int> points_of_curve,
   for (Primitive& primitive : add_pieces(set, state, out)) {
     Segment s = set->segment(set->patches()[i++]);
     primitive.uv = {0, 1, s.v0, s.v1};
+    primitive.one_across = state->attributes->dicing.hair;
   }
 }
 

@@ -29,6 +29,7 @@ struct PrimitiveState {
   float displacement_bound = 0;             ///< farthest a displacement shader moves a point, in camera space
   std::shared_ptr<const SolidTree> solid;   ///< that the surface bounds a primitive of; null: none
   SolidTree::NodeIndex solid_primitive = 0; ///< which
+  LevelPart level; ///< the samples that see it, where a level of detail goes over into another
 };
 
 struct Primitive {
@@ -38,6 +39,7 @@ struct Primitive {
   /// The part of the shaders' u and v that this surface is: patches of a mesh share one square.
   UvRect uv = {};
   MotionShapes deformation = {}; ///< from time 0 to 1; empty: it keeps its shape
+  bool one_across = false;       ///< one micropolygon in u: hair
 
   const Attributes& attributes() const { return *state->attributes; }
   /// Box of a part in camera space, displacement and motion included. Points go in straight lines: what holds

@@ -1,6 +1,6 @@
 // The dispatch of requests: which member function carries out which, where they are legal, messages. The
 // requests themselves: interpreter_blocks.cpp, _solids.cpp, _motion.cpp, _archives.cpp, _conditions.cpp,
-// _options.cpp, _attributes.cpp, _transforms.cpp, _geometry.cpp.
+// _options.cpp, _parameters.cpp, _attributes.cpp, _detail.cpp, _transforms.cpp, _geometry.cpp.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -47,8 +47,10 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display),
         set(kDisplayChannel, &I::display_channel);
     set(kDepthOfField, &I::depth_of_field), set(kHider, &I::hider), set(kOption, &I::option);
+    set(kRelativeDetail, &I::relative_detail), set(kDetail, &I::detail), set(kDetailRange, &I::detail_range);
+    set(kGeometricApproximation, &I::geometric_approximation);
 
-    set(kMakeTexture, &I::make_request), set(kMakeShadow, &I::make_request);
+    set(kMakeTexture, &I::make_request), set(kMakeShadow, &I::make_request), set(kMakeBump, &I::make_request);
     set(kMakeLatLongEnvironment, &I::make_request), set(kMakeCubeFaceEnvironment, &I::make_request);
 
     set(kAttribute, &I::attribute), set(kColor, &I::color), set(kOpacity, &I::opacity);
@@ -103,6 +105,7 @@ void Interpreter::carry_out(const RequestCall& call) {
 }
 
 void Interpreter::call_handler(const RequestCall& call) {
+  if ((is_primitive(call.id) || call.id == RequestId::kProcedural) && out_of_detail()) return;
   Handler h = handler(call.id);
   if (h && solid_.in_operation() && is_primitive(call.id))
     call_in_operation(call);

@@ -106,6 +106,22 @@ private:
   void warn(const RequestCall&, std::string_view text);
   /// One message for each key in a run.
   void warn_once(std::string key, slvm::SourceRange where, std::string_view name, std::string text);
+  /// The value of a named parameter, checked. Nothing (reported): it cannot be used.
+  std::optional<std::pair<std::string, slvm::Value>> named_value_of(const RequestCall&,
+                                                                    std::string_view category, const Param&);
+  /// Where a named value stands: the request whose table has it, the category there.
+  struct ParameterPlace {
+    RequestId table;
+    std::string_view category;
+    slvm::SourceRange where;
+  };
+  /// Says what a parameter lacks, once for each. False, with a message: its type is wrong.
+  bool check_parameter(const RequestCall&, const ParameterPlace&, const std::string& name,
+                       const slvm::Value&);
+  void unknown_parameter(const ParameterPlace&, const std::string& name);
+  /// Of a request that takes a parameter list and knows no names in it.
+  void no_parameters(const RequestCall&);
+  void no_parameter(const RequestCall&, const Param&);
   bool legal(const RequestCall&);
   bool skipped(const RequestCall&);
   bool record(const RequestCall&);
@@ -178,15 +194,25 @@ private:
   void display_channel(const RequestCall&);
   void depth_of_field(const RequestCall&);
   void hider(const RequestCall&);
-  bool hider_parameter(const RequestCall&, const std::string& name, const slvm::Value& value);
+  void hider_parameter(const RequestCall&, const std::string& name, const slvm::Value& value);
+  void depth_filter(const RequestCall&, const std::string& name);
   void option(const RequestCall&);
-  void search_path(const RequestCall&);
-  void limits(const RequestCall&);
+  void relative_detail(const RequestCall&);
+  void search_path(const std::string& kind, const slvm::Value& value);
+  void limit(const std::string& name, const slvm::Value& value);
   void make_request(const RequestCall&);
 
   // attributes
   void attribute(const RequestCall&);
-  void displacement_bound(const RequestCall&);
+  void attribute_parameter(const RequestCall&, const Param&, const std::string& name,
+                           const slvm::Value& value);
+  void dice_parameter(const std::string& name, float value);
+  void geometric_approximation(const RequestCall&);
+  void detail(const RequestCall&);
+  void detail_range(const RequestCall&);
+  void measure_detail();
+  /// Whether the level of detail leaves anything of what follows.
+  bool out_of_detail() const;
   void color(const RequestCall&);
   void opacity(const RequestCall&);
   void texture_coordinates(const RequestCall&);

@@ -118,6 +118,7 @@ bool Interpreter::replay_content(const RequestCall& call) {
 }
 
 void Interpreter::read_archive(const RequestCall& call) {
+  no_parameters(call);
   if (replay_archive(call)) return;
   if (nested_too_deep(call)) return;
   ++depth_;
@@ -157,6 +158,8 @@ void Interpreter::archive_begin(const RequestCall& call) {
       call.where};
   const Param* type = call.find_param("Content-Type");
   const Param* encoding = call.find_param("Content-Transfer-Encoding");
+  for (const Param& p : call.params)
+    if (&p != type && &p != encoding) no_parameter(call, p);
   contents_.erase(call.text(0));
   if (call.data.empty() || (type && !type->is_string()) || (encoding && !encoding->is_string())) return;
   auto data = decode_content(encoding ? encoding->strings[0] : "", call.data);
@@ -197,6 +200,7 @@ void Interpreter::object_instance(const RequestCall& call) {
 }
 
 void Interpreter::archive_instance(const RequestCall& call) {
+  no_parameters(call);
   if (!replay_archive(call))
     error_at(call.arguments[0].where, call, fmt::format("no archive \"{}\" was recorded", call.text(0)));
 }

@@ -68,6 +68,8 @@ void Interpreter::frame_end(const RequestCall& call) {
 std::vector<std::string> Interpreter::full_path(const Options& options, const std::string& kind) const {
   std::vector<std::string> path;
   if (auto it = options.search_paths.find(kind); it != options.search_paths.end()) path = it->second;
+  if (auto it = options.search_paths.find("resource"); it != options.search_paths.end())
+    path.insert(path.end(), it->second.begin(), it->second.end());
   std::vector<std::string> last{".", folder_, scene_folder_};
   if (auto it = standard_paths.find(kind); it != standard_paths.end())
     last.insert(last.end(), it->second.begin(), it->second.end());
@@ -88,6 +90,11 @@ void Interpreter::world_begin(const RequestCall& call) {
   for (const char* kind : {"shader", "texture", "archive", "procedural"})
     scene_.options.search_paths[kind] = full_path(options_, kind);
   if (override_options) override_options(scene_.options);
+  measure_detail();
+  const Options& o = scene_.options;
+  if (o.projection == ProjectionKind::kOrthographic && o.fstop < kInfinity)
+    warn_once("DepthOfField orthographic", call.where, "rib-unsupported",
+              "DepthOfField has no effect: orthographic cameras have no lens");
 }
 
 void Interpreter::world_end(const RequestCall& call) {

@@ -138,6 +138,7 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
     state->solid = solid_.tree;
     state->solid_primitive = solid_.node;
   }
+  state->level = attributes_->detail.part();
   return state;
 }
 

@@ -93,7 +93,7 @@ void Interpreter::complete_solids() {
     if (!p.solid.is_operand())
       others.push_back(std::move(p));
     else if (auto seen = seen_bound(p, camera, {filter.xwidth, filter.ywidth}))
-      run(p, seen->area); // may add to the row
+      run(p, seen->area * scene_.options.relative_detail); // may add to the row
   }
   scene_.procedurals = std::move(others);
 }
@@ -101,7 +101,7 @@ void Interpreter::complete_solids() {
 SceneContent Interpreter::make_content(const Procedural& p, float area) {
   if (stopped_) return {};
   auto spaces = spaces_;
-  run(p, area);
+  run(p, area * scene_.options.relative_detail);
   complete_solids();
   SceneContent content{std::exchange(scene_.primitives, {}), std::exchange(scene_.procedurals, {}), {}};
   for (const auto& [name, space] : spaces_)

@@ -17,9 +17,10 @@ namespace render::tools {
 namespace {
 
 constexpr std::string_view kLongNames[] = {
-    "help",        "version",        "progress",        "Progress",   "progressformat", "crop",   "res",
-    "cwd",         "shaders",        "archives",        "threads",    "verbose",        "nowarn", "Werror",
-    "procedurals", "allow-programs", "program-timeout", "statistics", "statisticsfile"};
+    "help",       "version",       "progress", "Progress",    "progressformat", "crop",
+    "res",        "cwd",           "shaders",  "archives",    "threads",        "verbose",
+    "nowarn",     "Werror",        "preview",  "procedurals", "allow-programs", "program-timeout",
+    "statistics", "statisticsfile"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -30,6 +31,8 @@ std::vector<std::string> normalise(int argc, char** argv) {
       out.push_back("--threads=" + a.substr(3));
       continue;
     }
+    // Its file name is optional and must not be taken from the scenes that follow.
+    if (a == "--preview" || a == "-preview") a = "--preview=preview.png";
     std::string_view name = std::string_view(a).substr(0, a.find('='));
     if (name.size() > 2 && name[0] == '-' && name[1] != '-')
       for (std::string_view known : kLongNames)
@@ -103,6 +106,9 @@ Arguments parse_arguments(int argc, char** argv) {
       ->check(CLI::Range(0.01, 1e6));
   app.add_flag(
       "-v,--verbose", [&](auto n) { out.verbosity = 1 + static_cast<int>(n); }, "say what is done");
+  app.add_option(
+      "--preview", out.preview,
+      "--preview=FILE: keep a PNG of what is finished up to date while rendering; alone: preview.png");
   app.add_flag("--statistics", out.statistics,
                "print what each frame cost: grids, shading by shader, memory");
   app.add_option("--statisticsfile", out.statistics_file,

@@ -25,6 +25,7 @@ struct Arguments {
   bool allow_programs = false;
   double program_seconds = 60;
   bool statistics = false;
+  std::string preview;         ///< a PNG file kept up to date; empty: none
   std::string statistics_file; ///< JSON lines; empty: none
   int verbosity = 1;
   bool warnings_are_errors = false, no_warnings = false;

@@ -3,12 +3,12 @@
 #include "render/statistics.h"
 #include "render/tools/arguments.h"
 #include "render/tools/compiling_loader.h"
+#include "slvm/support/whole_file.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <mutex>
@@ -91,15 +91,6 @@ void override_options(const Arguments& arguments, render::Options& options) {
   }
 }
 
-/// Under a temporary name first: a reader never sees half a file.
-bool write_whole(const std::string& name, const std::string& text) {
-  std::string temporary = fmt::format("{}.{}.part", name, ::getpid());
-  std::ofstream(temporary) << text;
-  std::error_code error;
-  std::filesystem::rename(temporary, name, error);
-  return !error;
-}
-
 int run(const Arguments& arguments) {
   if (!arguments.directory.empty()) {
     std::error_code error;
@@ -115,6 +106,7 @@ int run(const Arguments& arguments) {
   render::RendererSettings settings;
   settings.threads = arguments.threads;
   settings.allow_programs = arguments.allow_programs;
+  settings.preview = arguments.preview;
   settings.program_seconds = arguments.program_seconds;
   settings.shader_loader = render::tools::make_compiling_loader(
       [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
@@ -148,9 +140,12 @@ int run(const Arguments& arguments) {
   if (arguments.verbosity > 1)
     for (const std::string& name : renderer.written())
       fmt::print("{}\n", name);
-  if (!arguments.statistics_file.empty() && !write_whole(arguments.statistics_file, statistics)) {
-    fmt::print(stderr, "slrender: error: cannot write \"{}\"\n", arguments.statistics_file);
-    return kMissingFile;
+  if (!arguments.statistics_file.empty()) {
+    std::string why = slvm::write_whole_file(arguments.statistics_file, statistics.data(), statistics.size());
+    if (!why.empty()) {
+      fmt::print(stderr, "slrender: error: cannot write \"{}\": {}\n", arguments.statistics_file, why);
+      return kMissingFile;
+    }
   }
   if (missing) return kMissingFile;
   return messages.failed ? kWrongInput : kFine;

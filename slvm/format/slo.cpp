@@ -3,16 +3,15 @@
 
 #include "slvm/format/slo_generated.h"
 #include "slvm/format/verify.h"
+#include "slvm/support/whole_file.h"
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
-#include <unistd.h>
 
 namespace slvm {
 namespace {
@@ -315,18 +314,8 @@ Result<std::vector<std::byte>> read_file(const std::string& path) {
 }
 
 Result<bool> write_file(const std::string& path, std::span<const std::byte> bytes) {
-  std::string temporary = fmt::format("{}.tmp{}", path, ::getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  if (!out) return Error{fmt::format("cannot write '{}': {}", path, std::strerror(errno))};
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code ec;
-  if (out) std::filesystem::rename(temporary, path, ec);
-  if (!out || ec) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    return Error{fmt::format("cannot write '{}': {}", path, ec ? ec.message() : "the disk is full or gone")};
-  }
+  std::string why = write_whole_file(path, bytes.data(), bytes.size());
+  if (!why.empty()) return Error{fmt::format("cannot write '{}': {}", path, why)};
   return true;
 }
 
