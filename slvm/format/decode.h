@@ -15,6 +15,7 @@ struct CallOperand {
   bool store = false;
   bool array = false;   ///< must be an array operand
   bool uniform = false; ///< must be uniform
+  uint32_t elements = 0; ///< that the array must have; 0: any number
 };
 
 /// Splits the operand words of a call: stored operands first, then read ones. `level`: the last word of

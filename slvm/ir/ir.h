@@ -40,7 +40,7 @@ enum class Op : uint8_t {
   kConstant,   ///< index: into constants
   kSlot,       ///< reads external variable `index`. L, Cl and Ol are those of the enclosing light loop
   kStore,      ///< args: value. Stores to external variable `index`
-  kCall,       ///< calls shadeop `index`; results: what it stores; args: what it reads, and token-value pairs
+  kCall,       ///< calls shadeop `index` (Module::called); results: what it stores; args: what it reads, and token-value pairs
   kRetype,     ///< args: value. The same components under another type (point, vector, normal, color)
   kArray,      ///< the array `index` as an argument of calls; yields no code
   kArrayClear, ///< fills array `index` with zeros
@@ -117,8 +117,11 @@ struct Module {
   Region body;                    ///< ends in a yield without arguments
   std::vector<Region> inits;      ///< defaults of parameters: each yields the value (arrays: the elements)
   std::vector<std::string> files; ///< by the FileId of source ranges
+  PluginShadeops plugins;         ///< those that calls may name
 
   Type type(ValueId v) const { return values[v].type; }
+  /// What a call calls.
+  const ShadeopInfo& called(const Inst& call) const { return plugins.info(call.index); }
   bool varying(ValueId v) const { return values[v].varying; }
 };
 
