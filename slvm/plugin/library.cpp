@@ -69,6 +69,8 @@ std::string PluginLibrary::read_grid_table() {
     e.entry = reinterpret_cast<void*>(row.entry);
     e.init = reinterpret_cast<void*>(row.init);
     e.shutdown = reinterpret_cast<void*>(row.cleanup);
+    e.begin = reinterpret_cast<void*>(row.begin);
+    e.end = reinterpret_cast<void*>(row.end);
     e.thread_safe = true;
     e.shared = i;
   }

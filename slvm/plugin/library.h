@@ -17,6 +17,7 @@ struct PluginEntry {
   PluginForm form = PluginForm::kPointwise;
   void* entry = nullptr;                       ///< SHADEOP, or RslEntryFunc
   void *init = nullptr, *shutdown = nullptr;   ///< null: none
+  void *begin = nullptr, *end = nullptr;       ///< of grid functions: before init and after shutdown
   bool thread_safe = false;                    ///< several threads may call it at once
   /// Functions of one table with the same init and shutdown share what init returns. Equal for those.
   size_t shared = 0;
@@ -40,8 +41,8 @@ public:
   /// Null, or the library's functions to be called before its first and after its last function of this form.
   void* library_init() const { return library_init_; }
   void* library_cleanup() const { return library_cleanup_; }
-  /// Where the header of the plug-in looks for what the renderer offers; null: it does not.
-  void* services_pointer() const { return library_->symbol("anemone_plugin_services"); }
+  /// anemone_enter of sdk/rx.h, which tells the library of each call; null: it asks for no services.
+  void* enter() const { return library_->symbol("anemone_enter"); }
 
 private:
   explicit PluginLibrary(std::shared_ptr<const SharedLibrary> library) : library_(std::move(library)) {}
