@@ -23,13 +23,16 @@ public:
         planes_(static_cast<size_t>(components(operand.what.type))) {
     if (o_.what.type == Type::kString) {
       texts_.resize(count_);
-      descriptions_.resize(count_);
+      pointers_.resize(std::max<size_t>(count_, 1));
     } else {
       numbers_.resize(std::max<size_t>(planes_ * count_, 1));
     }
   }
 
-  void* address() { return descriptions_.empty() ? static_cast<void*>(numbers_.data()) : descriptions_.data(); }
+  void* address() {
+    if (o_.what.type != Type::kString) return numbers_.data();
+    return o_.what.array ? static_cast<void*>(pointers_.data()) : &description_;
+  }
 
   /// What the operands hold at this point.
   void load(size_t point) {
@@ -65,12 +68,14 @@ private:
       room.resize(std::max(kStringRoom, text.size() + 1));
       std::memcpy(room.data(), text.data(), text.size());
       room[text.size()] = '\0';
-      descriptions_[i] = {room.data(), static_cast<int>(room.size())};
+      pointers_[i] = room.data();
     }
+    description_.s = pointers_[0];
+    description_.bufflen = count_ ? static_cast<int>(texts_[0].size()) : 0;
   }
 
   float stored_text(size_t i) {
-    const char* s = descriptions_[i].s;
+    const char* s = o_.what.array ? pointers_[i] : description_.s;
     const std::string_view text = s ? std::string_view(s, ::strnlen(s, kLongestString)) : std::string_view();
     return std::bit_cast<float>(strings_.intern(text));
   }
@@ -80,7 +85,8 @@ private:
   size_t count_, planes_;
   std::vector<float> numbers_;
   std::vector<std::vector<char>> texts_;
-  std::vector<STRING_DESC> descriptions_;
+  std::vector<char*> pointers_; // of an array
+  STRING_DESC description_{};   // of one string
 };
 
 } // namespace

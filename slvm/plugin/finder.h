@@ -1,4 +1,4 @@
-// Finds functions of plug-ins for the compiler, in folders that the user gave. Libraries are opened when a function is
+// Finds functions of plug-ins for the compiler, in folders that the user gave. PUBLIC. Libraries are opened when a function is
 // asked for that nothing else has: first those named after it, then all others, in order. Thread-safe.
 #pragma once
 

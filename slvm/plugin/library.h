@@ -1,4 +1,4 @@
-// One library of functions for shaders, opened: what its tables say. Two forms (docs/plugins.md): a table NAME_shadeops
+// One library of functions for shaders, opened: what its tables say. PUBLIC. Two forms (docs/plugins.md): a table NAME_shadeops
 // for each function (sdk/shadeop.h, called by point), and one table RslPublicFunctions (sdk/RslPlugin.h, called by
 // grid). Read next: finder.h (for the compiler), slvm/exec/plugin_host.h (running them).
 #pragma once

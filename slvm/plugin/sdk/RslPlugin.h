@@ -15,20 +15,10 @@
 #pragma once
 
 #include "RixInterfaces.h"
+#include "ri.h"
 
 #include <assert.h>
 #include <stddef.h>
-
-// As ri.h has them: what compiles with both sees the same types twice, which C++ allows.
-typedef float RtFloat;
-typedef int RtInt;
-typedef char* RtString;
-typedef void* RtPointer;
-typedef RtFloat RtColor[3];
-typedef RtFloat RtPoint[3];
-typedef RtFloat RtVector[3];
-typedef RtFloat RtNormal[3];
-typedef RtFloat RtMatrix[4][4];
 
 #define RSL_PLUGIN_VERSION 6
 /// Of the binary interface between this header and the programs that open plug-ins.

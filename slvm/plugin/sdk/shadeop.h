@@ -10,7 +10,7 @@
 // that are called before the first and after the last call, or "". Several entries are overloads. The last is {""}.
 // argv[0] is the result, argv[1] and so on are the arguments; all are addresses:
 //   float           1 float       point vector normal color   3 floats       matrix   16 floats, row by row
-//   string          STRING_DESC   float[3], color[]...        the elements one after the other
+//   string          STRING_DESC   float[3], color[]...        the elements one after the other; of strings char*
 // A parameter that is `output` in the prototype is stored to. In a prototype without any, arguments that are local
 // variables or output parameters of the shader of just that type are.
 #pragma once
@@ -40,7 +40,10 @@ typedef struct ANEMONE_SHADEOP_SPEC {
 /// stays as it is until the next call (ASSIGN_STRING sees to it). Do not free what `s` was.
 typedef struct ANEMONE_STRING_DESC {
   char* s;
-  int bufflen;
+  union {
+    int bufflen;
+    int buflen; /* as others spell it */
+  };
 } STRING_DESC;
 
 #define SHADEOP_TABLE(name)                                                                                            \
