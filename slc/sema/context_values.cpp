@@ -144,7 +144,9 @@ Variation ContextWalk::row_call(CallExpr& e) {
   for (size_t i = 0; i < e.args.size(); ++i) {
     if (i < count && param(i).output && !param(i).input) continue;
     Variation arg = value(e.args[i].get());
-    if (arg && i < count && param(i).uniform)
+    // A declared uniform that was set at some points is one to a plug-in that sets it.
+    const bool own = e.plugin && i < count && param(i).output && arg.degree == kSomewhere;
+    if (arg && i < count && param(i).uniform && !own)
       complain_of(arg.why, Msg::kNeedsUniform, e.args[i]->range, param(i).name, e.name);
     bool message = i < count && param(i).output && param(i).any;
     if (!message) variation |= arg;

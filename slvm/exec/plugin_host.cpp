@@ -104,7 +104,7 @@ Result<HostedLibrary*> PluginHost::open(const PluginShadeop& wanted) {
                              file, plugin_folders_advice(folders_))};
   std::unique_ptr<HostedLibrary>& known = libraries_[path];
   if (!known) {
-    auto library = PluginLibrary::open(path, true);
+    auto library = PluginLibrary::open(path);
     if (!library) {
       libraries_.erase(path);
       return Error{fmt::format("'{}' is a function of a plug-in that cannot be used: {}", wanted.name().function,

@@ -17,7 +17,7 @@ void add(const std::vector<PluginEntry>& entries, const std::string& path, Plugi
 std::shared_ptr<const PluginLibrary> PluginFinder::open(const std::string& path, std::string& error) const {
   auto [it, is_new] = opened_.try_emplace(path);
   if (is_new) {
-    auto library = PluginLibrary::open(path, false);
+    auto library = PluginLibrary::open(path);
     if (library)
       it->second.library = *library;
     else

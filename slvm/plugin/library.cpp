@@ -4,11 +4,9 @@
 #include "slvm/plugin/prototype.h"
 #include "slvm/plugin/sdk/RslPlugin.h"
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
-#include <set>
 
 namespace slvm {
 
@@ -27,8 +25,8 @@ std::string bounded(const char* text) {
 
 } // namespace
 
-Result<std::shared_ptr<const PluginLibrary>> PluginLibrary::open(const std::string& path, bool all_symbols) {
-  auto file = SharedLibrary::open(path, all_symbols);
+Result<std::shared_ptr<const PluginLibrary>> PluginLibrary::open(const std::string& path) {
+  auto file = SharedLibrary::open(path);
   if (!file) return Error{file.error()};
   std::shared_ptr<PluginLibrary> library(new PluginLibrary(*file));
   if (std::string error = library->read_grid_table(); !error.empty())

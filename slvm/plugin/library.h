@@ -23,10 +23,12 @@ struct PluginEntry {
   size_t shared = 0;
 };
 
+struct PointwiseRow;
+
 class PluginLibrary {
 public:
-  /// Opens a library and reads its table of grid functions, if it has one. `all_symbols`: as in SharedLibrary.
-  static Result<std::shared_ptr<const PluginLibrary>> open(const std::string& path, bool all_symbols);
+  /// Opens a library and reads its table of grid functions, if it has one.
+  static Result<std::shared_ptr<const PluginLibrary>> open(const std::string& path);
 
   const std::string& path() const { return library_->path(); }
   /// File name without folders.
@@ -47,7 +49,7 @@ public:
 private:
   explicit PluginLibrary(std::shared_ptr<const SharedLibrary> library) : library_(std::move(library)) {}
   std::string read_grid_table();
-  bool read_entry(const struct PointwiseRow& row, const std::string& function, PluginEntry& out,
+  bool read_entry(const PointwiseRow& row, const std::string& function, PluginEntry& out,
                   std::string& trouble) const;
 
   std::shared_ptr<const SharedLibrary> library_;

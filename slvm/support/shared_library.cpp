@@ -14,12 +14,12 @@ namespace slvm {
 
 namespace fs = std::filesystem;
 
-Result<std::shared_ptr<const SharedLibrary>> SharedLibrary::open(const std::string& path, bool all_symbols) {
+Result<std::shared_ptr<const SharedLibrary>> SharedLibrary::open(const std::string& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return Error{fmt::format("{}: there is no such file", path)};
   // Without a slash dlopen would search the system's folders.
   const std::string file = path.find('/') == path.npos ? "./" + path : path;
-  void* handle = ::dlopen(file.c_str(), (all_symbols ? RTLD_NOW : RTLD_LAZY) | RTLD_LOCAL);
+  void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle) return std::shared_ptr<const SharedLibrary>(new SharedLibrary(path, handle));
   const char* reason = ::dlerror();
   std::string text = reason ? reason : "it cannot be opened";

@@ -14,9 +14,9 @@ namespace slvm {
 
 class SharedLibrary {
 public:
-  /// `all_symbols`: everything the library needs of others must be there; otherwise a missing function shows when it
-  /// is called. The error names the file and what is wrong with it. Code of the library may run in here.
-  static Result<std::shared_ptr<const SharedLibrary>> open(const std::string& path, bool all_symbols);
+  /// Everything the library needs of others must be there. The error names the file and what is wrong with it. Code of
+  /// the library may run in here.
+  static Result<std::shared_ptr<const SharedLibrary>> open(const std::string& path);
   ~SharedLibrary();
   SharedLibrary(const SharedLibrary&) = delete;
   SharedLibrary& operator=(const SharedLibrary&) = delete;
