@@ -205,7 +205,8 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
   instance->bound_ = std::make_unique<Instance::Bound>();
   Instance::Bound& bound = *instance->bound_;
   if (instance->shader().kind() == ShaderKind::kLight) bound.given.assign(given.begin(), given.end());
-  if (std::string error = bind_code(bound, program, *kernels_, *plugins_); !error.empty()) return Error{error};
+  if (std::string error = bind_code(bound, program, *kernels_, *plugins_); !error.empty())
+    return Error{error};
   bind_constants(bound, program, strings_);
   bind_params(bound, program, *values, strings_);
   bind_variables(bound, program);

@@ -18,9 +18,10 @@ namespace render::tools {
 namespace {
 
 constexpr std::string_view kLongNames[] = {
-    "help",        "version",        "progress",        "Progress",   "progressformat", "crop",   "res",
-    "cwd",         "shaders",        "archives",        "threads",    "verbose",        "nowarn", "Werror",
-    "procedurals", "dso", "allow-programs", "program-timeout", "statistics", "statisticsfile"};
+    "help",       "version",       "progress",    "Progress", "progressformat", "crop",
+    "res",        "cwd",           "shaders",     "archives", "threads",        "verbose",
+    "nowarn",     "Werror",        "procedurals", "dso",      "allow-programs", "program-timeout",
+    "statistics", "statisticsfile"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -98,9 +99,10 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
   app.add_option("--procedurals", procedurals,
                  "the same for programs that make geometry (environment: ANEMONE_PROCEDURALS)");
-  app.add_option("--dso", plugins,
-                 "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
-                 "code (environment: ANEMONE_DSO_PATH)");
+  app.add_option(
+      "--dso", plugins,
+      "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
+      "code (environment: ANEMONE_DSO_PATH)");
   app.add_flag("--allow-programs", out.allow_programs,
                "let scenes run the programs they name (Procedural \"RunProgram\")");
   app.add_option("--program-timeout", out.program_seconds, "seconds such a program may be silent (60)")

@@ -12,8 +12,8 @@
 
 namespace render::tools {
 
-/// `show` gets warnings and the compiler's messages, ready to be printed. `plugin_folders`: where functions of plug-ins
-/// are found.
+/// `show` gets warnings and the compiler's messages, ready to be printed. `plugin_folders`: where functions
+/// of plug-ins are found.
 ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show,
                                    std::vector<std::string> plugin_folders = {});
 

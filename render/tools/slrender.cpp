@@ -117,7 +117,8 @@ int run(const Arguments& arguments) {
   settings.allow_programs = arguments.allow_programs;
   settings.program_seconds = arguments.program_seconds;
   settings.shader_loader = render::tools::make_compiling_loader(
-      [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }, arguments.plugin_folders);
+      [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); },
+      arguments.plugin_folders);
   settings.plugin_folders = arguments.plugin_folders;
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
   settings.flush_messages = [&] { messages.flush(); };
@@ -128,7 +129,9 @@ int run(const Arguments& arguments) {
     statistics += format_json(s) + "\n";
   };
   if (arguments.statistics)
-    settings.plugin_statistics = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); };
+    settings.plugin_statistics = [](std::string_view text) {
+      std::fwrite(text.data(), 1, text.size(), stderr);
+    };
   if (progress.wanted()) settings.progress = [&](double fraction) { progress.show(fraction); };
 
   render::Renderer renderer(messages.sources, messages.diagnostics, settings);

@@ -88,8 +88,8 @@ private:
     line(head);
   }
   static std::string row(const CallExpr& call) {
-    return call.plugin ? fmt::format(" [{} {} of {}]", call.plugin->info().name, call.plugin->info().signature_text,
-                                     call.plugin->name().library)
+    return call.plugin ? fmt::format(" [{} {} of {}]", call.plugin->info().name,
+                                     call.plugin->info().signature_text, call.plugin->name().library)
                        : row(call.shadeop);
   }
   static std::string row(ShadeopId id) {

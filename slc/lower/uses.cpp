@@ -96,8 +96,7 @@ private:
           trace(last.args[static_cast<size_t>(result)], out, depth + 1);
       return;
     }
-    if (maker && maker->op == ir::Op::kCall && depth < kDeepest &&
-        m_.called(*maker).name == "operator?:") {
+    if (maker && maker->op == ir::Op::kCall && depth < kDeepest && m_.called(*maker).name == "operator?:") {
       trace(maker->args[1], out, depth + 1);
       return trace(maker->args[2], out, depth + 1);
     }

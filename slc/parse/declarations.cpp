@@ -189,7 +189,8 @@ FunctionDef* Parser::parse_function() {
 
 // `plugin "name";`, of RSL 2.0: its functions can be called from here on. True: there was one.
 bool Parser::parse_plugin() {
-  if (!at(TokenKind::kIdentifier) || current().text != "plugin" || peek().kind != TokenKind::kString || panic_)
+  if (!at(TokenKind::kIdentifier) || current().text != "plugin" || peek().kind != TokenKind::kString ||
+      panic_)
     return false;
   advance();
   unit_.plugins.push_back({current().text, current().range});

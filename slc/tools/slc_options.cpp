@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Options of several letters behind one dash, and what they are called here.
-constexpr std::string_view kSingleDash[] = {"-MM",     "-MD",   "-MMD",    "-MF",        "-MT",
-                                            "-nw",     "-lint", "-nolint", "-lintpoint", "-lintspace",
-                                            "-strict", "-help", "-version",    "-dso"};
+constexpr std::string_view kSingleDash[] = {"-MM",     "-MD",   "-MMD",     "-MF",        "-MT",
+                                            "-nw",     "-lint", "-nolint",  "-lintpoint", "-lintspace",
+                                            "-strict", "-help", "-version", "-dso"};
 
 struct Dialect {
   std::string_view name;

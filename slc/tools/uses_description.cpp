@@ -60,10 +60,10 @@ std::string calls_section(const Inspected& shader) {
   for (const CallUse& use : calls) {
     const slvm::ShadeopInfo& info = use.info();
     size_t count = use.places.size();
-    text +=
-        fmt::format("{}{} {}{}: {} call{}, {}\n", kEntry, in_quotes(info.name), in_quotes(info.signature_text),
-                    use.plugin ? " of the plug-in " + in_quotes(use.plugin->name().library) : "", count,
-                    count == 1 ? "" : "s", places_text(shader, use.places));
+    text += fmt::format("{}{} {}{}: {} call{}, {}\n", kEntry, in_quotes(info.name),
+                        in_quotes(info.signature_text),
+                        use.plugin ? " of the plug-in " + in_quotes(use.plugin->name().library) : "", count,
+                        count == 1 ? "" : "s", places_text(shader, use.places));
   }
   return text;
 }

@@ -9,7 +9,8 @@
 namespace slvm {
 
 struct ShadingContext::Impl {
-  Impl(const Machine& m, RendererServices& s) : state{m, s, cache, LightKernels(m.kernels())}, plugins(m.plugins()) {
+  Impl(const Machine& m, RendererServices& s)
+      : state{m, s, cache, LightKernels(m.kernels())}, plugins(m.plugins()) {
     state.plugins = &plugins;
   }
 

@@ -73,9 +73,10 @@ void call_plugin(const GridCall& call, HostedFunction& function) {
     context.call = nullptr;
   }
   if (!error.empty())
-    call.run.report(call.code, MessageSeverity::kError,
-                    fmt::format("'{}' of the plug-in {}: {}", call.info.name, function.home->library->name(), error),
-                    points.size());
+    call.run.report(
+        call.code, MessageSeverity::kError,
+        fmt::format("'{}' of the plug-in {}: {}", call.info.name, function.home->library->name(), error),
+        points.size());
 }
 
 } // namespace slvm

@@ -6,8 +6,8 @@
 
 namespace slvm {
 
-/// Calls the function for the active points of the grid, or once where nothing that it reads or stores varies. What goes
-/// wrong becomes a run-time message; results are then 0.
+/// Calls the function for the active points of the grid, or once where nothing that it reads or stores
+/// varies. What goes wrong becomes a run-time message; results are then 0.
 void call_plugin(const GridCall& call, HostedFunction& function);
 
 /// What sdk/rx.h asks of the program.
@@ -37,9 +37,9 @@ void keep_old_values(const GridCall& call, std::span<const PluginOperand> operan
 std::vector<uint32_t> active_points(const GridCall& call, std::span<const PluginOperand> operands);
 
 /// Form for form; an error, or "".
-std::string call_by_point(const GridCall& call, HostedFunction& function, std::span<const PluginOperand> operands,
-                          std::span<const uint32_t> points);
-std::string call_by_grid(const GridCall& call, HostedFunction& function, std::span<const PluginOperand> operands,
-                         std::span<const uint32_t> points);
+std::string call_by_point(const GridCall& call, HostedFunction& function,
+                          std::span<const PluginOperand> operands, std::span<const uint32_t> points);
+std::string call_by_grid(const GridCall& call, HostedFunction& function,
+                         std::span<const PluginOperand> operands, std::span<const uint32_t> points);
 
 } // namespace slvm

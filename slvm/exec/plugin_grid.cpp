@@ -15,7 +15,8 @@ constexpr size_t kLongestText = 1 << 20; // of a string that is taken over from 
 class PluginArgument final : public RslArg, private RslResizer {
 public:
   /// Takes the values of all points of the grid (strings: of the active ones).
-  void load(const GridCall& call, const PluginOperand& o, std::span<const uint32_t> points, const PluginContext& context) {
+  void load(const GridCall& call, const PluginOperand& o, std::span<const uint32_t> points,
+            const PluginContext& context) {
     call_ = &call;
     context_ = &context;
     what_ = o.what;
@@ -60,8 +61,8 @@ public:
 
   /// "" or what the function asked of the array that it cannot have.
   std::string complaint() const {
-    return too_long_ ? fmt::format("it wants {} elements in '{}', which holds {}: declare a longer array", too_long_,
-                                   name_, capacity_)
+    return too_long_ ? fmt::format("it wants {} elements in '{}', which holds {}: declare a longer array",
+                                   too_long_, name_, capacity_)
                      : std::string();
   }
 
@@ -102,13 +103,17 @@ private:
 
   bool is_string() const { return what_.type == Type::kString; }
   float* begin() const {
-    return is_string() ? reinterpret_cast<float*>(const_cast<char**>(texts_.data())) : const_cast<float*>(numbers_.data());
+    return is_string() ? reinterpret_cast<float*>(const_cast<char**>(texts_.data()))
+                       : const_cast<float*>(numbers_.data());
   }
-  int float_stride() const { return static_cast<int>(per_point_ * (is_string() ? sizeof(char*) / sizeof(float) : 1)); }
+  int float_stride() const {
+    return static_cast<int>(per_point_ * (is_string() ? sizeof(char*) / sizeof(float) : 1));
+  }
 
-  void load_strings(const GridCall& call, const PluginOperand& o, std::span<const uint32_t> points, size_t all) {
-    static char nothing[1] = {}; // never written to
-    texts_.assign(all * per_point_, nothing);
+  void load_strings(const GridCall& call, const PluginOperand& o, std::span<const uint32_t> points,
+                    size_t all) {
+    nothing_ = '\0';
+    texts_.assign(all * per_point_, &nothing_);
     if (!o.from) return;
     const Operand& p = o.from->planes;
     const StringPool& strings = call.run.state.machine.strings();
@@ -133,6 +138,7 @@ private:
   int too_long_ = 0;
   std::vector<float> numbers_;
   std::vector<char*> texts_;
+  char nothing_ = '\0'; ///< the text of points that are not active
 };
 
 PluginThread::Memory::Memory() = default;
@@ -152,8 +158,8 @@ void prepare_context(PluginContext& context, const GridCall& call, std::span<con
 
 } // namespace
 
-std::string call_by_grid(const GridCall& call, HostedFunction& function, std::span<const PluginOperand> operands,
-                         std::span<const uint32_t> points) {
+std::string call_by_grid(const GridCall& call, HostedFunction& function,
+                         std::span<const PluginOperand> operands, std::span<const uint32_t> points) {
   PluginThread& thread = *call.run.state.plugins;
   prepare_context(thread.context(), call, points);
   std::vector<std::unique_ptr<PluginArgument>>& arguments = thread.memory.arguments;

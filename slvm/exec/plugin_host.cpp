@@ -41,7 +41,8 @@ std::string one_line(const std::vector<std::string>& texts) {
 } // namespace
 
 PluginContext::PluginContext(PluginHost& host, PluginThread* thread)
-    : increments(16), host_(host), thread_(thread), messages_([this](PluginMessage m) { tell(std::move(m)); }) {}
+    : increments(16), host_(host), thread_(thread),
+      messages_([this](PluginMessage m) { tell(std::move(m)); }) {}
 
 RixInterface* PluginContext::GetRixInterface(RixInterfaceId id) const {
   switch (id) {
@@ -100,15 +101,15 @@ Result<HostedLibrary*> PluginHost::open(const PluginShadeop& wanted) {
   const std::string file = std::filesystem::path(wanted.name().library).filename().string();
   const std::string path = find_library(file, folders_);
   if (path.empty())
-    return Error{fmt::format("'{}' is a function of the plug-in '{}', which is not found: {}", wanted.name().function,
-                             file, plugin_folders_advice(folders_))};
+    return Error{fmt::format("'{}' is a function of the plug-in '{}', which is not found: {}",
+                             wanted.name().function, file, plugin_folders_advice(folders_))};
   std::unique_ptr<HostedLibrary>& known = libraries_[path];
   if (!known) {
     auto library = PluginLibrary::open(path);
     if (!library) {
       libraries_.erase(path);
-      return Error{fmt::format("'{}' is a function of a plug-in that cannot be used: {}", wanted.name().function,
-                               library.error())};
+      return Error{fmt::format("'{}' is a function of a plug-in that cannot be used: {}",
+                               wanted.name().function, library.error())};
     }
     known = std::make_unique<HostedLibrary>();
     known->library = *library;
@@ -123,13 +124,15 @@ Result<HostedFunction*> PluginHost::bind(const PluginShadeop& wanted) {
   HostedLibrary& home = **library;
   HostedFunction* function = nullptr;
   for (HostedFunction& f : functions_)
-    if (f.home == &home && f.declared->name().function == wanted.name().function && same_function(wanted, *f.declared))
+    if (f.home == &home && f.declared->name().function == wanted.name().function &&
+        same_function(wanted, *f.declared))
       function = &f;
   if (!function) {
     std::vector<std::string> trouble;
     std::string others;
     for (PluginEntry& entry : home.library->functions(wanted.name().function, trouble)) {
-      auto declared = PluginShadeop::make({entry.function, entry.signature, home.library->path(), entry.form});
+      auto declared =
+          PluginShadeop::make({entry.function, entry.signature, home.library->path(), entry.form});
       if (!declared) continue;
       others += (others.empty() ? "" : ", ") + entry.signature;
       if (function || entry.form != wanted.name().form || !same_function(wanted, *declared)) continue;
@@ -139,9 +142,10 @@ Result<HostedFunction*> PluginHost::bind(const PluginShadeop& wanted) {
       function->declared = std::move(declared);
     }
     if (!function)
-      return Error{fmt::format("the plug-in {} has no '{}' with signature '{}' ({}): compile the shader again{}",
-                               home.library->path(), wanted.name().function, wanted.name().signature,
-                               others.empty() ? "none of that name" : "but " + others, one_line(trouble))};
+      return Error{
+          fmt::format("the plug-in {} has no '{}' with signature '{}' ({}): compile the shader again{}",
+                      home.library->path(), wanted.name().function, wanted.name().signature,
+                      others.empty() ? "none of that name" : "but " + others, one_line(trouble))};
   }
   if (std::string error = prepare_locked(*function); !error.empty())
     return Error{fmt::format("'{}' of the plug-in {} cannot be called: {}", wanted.name().function,
@@ -233,8 +237,9 @@ bool PluginThread::init_data(HostedFunction& function, void*& data, std::string&
     InitData& init = inits_.emplace_back();
     init.function = &function;
     if (function.entry.init) {
-      init.error = call_guarded(
-          [&] { init.data = reinterpret_cast<PointInit>(function.entry.init)(static_cast<int>(number_), nullptr); });
+      init.error = call_guarded([&] {
+        init.data = reinterpret_cast<PointInit>(function.entry.init)(static_cast<int>(number_), nullptr);
+      });
       if (init.error.starts_with("it crashed")) home.broken = "in its init " + init.error;
     }
   }

@@ -1,9 +1,9 @@
-// Plug-ins of a machine: libraries opened, functions bound, what is called when a frame begins and ends; and what each
-// thread has of them. How a call is made: plugin_call.h.
+// Plug-ins of a machine: libraries opened, functions bound, what is called when a frame begins and ends; and
+// what each thread has of them. How a call is made: plugin_call.h.
 //
-// Order of calls: the library's init, a function's begin and init at its first binding in a frame; per thread the init
-// of a function called by point before its first call. In the reverse order at the end of the thread (its
-// ShadingContext) and of the frame (Machine::end_plugins, or the machine).
+// Order of calls: the library's init, a function's begin and init at its first binding in a frame; per thread
+// the init of a function called by point before its first call. In the reverse order at the end of the thread
+// (its ShadingContext) and of the frame (Machine::end_plugins, or the machine).
 #pragma once
 
 #include "slvm/exec/plugin_interfaces.h"
@@ -68,7 +68,8 @@ public:
   Result<HostedFunction*> bind(const PluginShadeop& wanted);
   /// Prepares it again in a new frame. "" or why it cannot be called.
   std::string prepare(HostedFunction& function);
-  /// Ends the frame: cleanup functions, storage. No call may be under way. Returns what statistics plug-ins gave.
+  /// Ends the frame: cleanup functions, storage. No call may be under way. Returns what statistics plug-ins
+  /// gave.
   std::string end_frame();
 
   const Machine& machine() const { return machine_; }
@@ -97,8 +98,8 @@ private:
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<HostedLibrary>> libraries_; // by path
   std::deque<HostedFunction> functions_;
-  std::vector<HostedLibrary*> initialised_;  // in order
-  std::vector<HostedFunction*> prepared_;    // in order
+  std::vector<HostedLibrary*> initialised_; // in order
+  std::vector<HostedFunction*> prepared_;   // in order
   std::atomic<uint32_t> threads_ = 0;
 };
 
@@ -112,8 +113,8 @@ public:
   ~PluginThread();
 
   PluginHost& host() { return host_; }
-  /// What the init of a function called by point returned in this thread, which is called now if it was not yet. The
-  /// caller holds the library's turn where it is needed. False: it failed, `error` says how.
+  /// What the init of a function called by point returned in this thread, which is called now if it was not
+  /// yet. The caller holds the library's turn where it is needed. False: it failed, `error` says how.
   bool init_data(HostedFunction& function, void*& data, std::string& error);
   /// The shaders of a grid have run.
   void end_grid() { locals_.clear(); }

@@ -37,10 +37,10 @@ public:
 
 } // namespace
 
-#define FORMATTED(text)                                                                                                \
-  va_list arguments;                                                                                                   \
-  va_start(arguments, format);                                                                                         \
-  const std::string text = formatted(format, arguments);                                                               \
+#define FORMATTED(text)                                                                                      \
+  va_list arguments;                                                                                         \
+  va_start(arguments, format);                                                                               \
+  const std::string text = formatted(format, arguments);                                                     \
   va_end(arguments)
 
 void PluginMessages::Error(const char* format, ...) {

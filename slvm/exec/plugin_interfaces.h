@@ -65,7 +65,9 @@ private:
 class PluginTokens : public RixTokenStorage {
 public:
   explicit PluginTokens(StringPool& strings) : strings_(strings) {}
-  const char* GetToken(const char* text) override { return strings_.text(strings_.intern(text ? text : "")).data(); }
+  const char* GetToken(const char* text) override {
+    return strings_.text(strings_.intern(text ? text : "")).data();
+  }
 
 private:
   StringPool& strings_;

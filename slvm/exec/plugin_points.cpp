@@ -91,8 +91,8 @@ private:
 
 } // namespace
 
-std::string call_by_point(const GridCall& call, HostedFunction& function, std::span<const PluginOperand> operands,
-                          std::span<const uint32_t> points) {
+std::string call_by_point(const GridCall& call, HostedFunction& function,
+                          std::span<const PluginOperand> operands, std::span<const uint32_t> points) {
   std::string error;
   void* data = nullptr;
   if (!call.run.state.plugins->init_data(function, data, error)) return error;
@@ -103,7 +103,9 @@ std::string call_by_point(const GridCall& call, HostedFunction& function, std::s
     addresses.push_back(arguments.emplace_back(o, call.run.state.machine.strings()).address());
   const auto entry = reinterpret_cast<PointFunction>(function.entry.entry);
   // A uniform argument is the function's own: it goes on from point to point with what it stored there.
-  auto moves = [&](size_t i) { return i == 0 || !operands[i].to || operands[i].to->planes.step || operands[i].to->array; };
+  auto moves = [&](size_t i) {
+    return i == 0 || !operands[i].to || operands[i].to->planes.step || operands[i].to->array;
+  };
   bool first = true;
   return call_catching([&] {
     for (uint32_t point : points) {

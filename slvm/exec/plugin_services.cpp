@@ -19,8 +19,7 @@ ShadeopId noise_row(int kind, int in, bool triple) {
       {"float x", "float x, float y", "point p", "point p, float t"},
       {"float x, uniform float period", "float x, float y, uniform float xperiod, uniform float yperiod",
        "point p, uniform point period", "point p, float t, uniform point pperiod, uniform float tperiod"}};
-  const std::string signature =
-      std::string(triple ? "color(" : "float(") + kParams[kind == 1][in - 1] + ")";
+  const std::string signature = std::string(triple ? "color(" : "float(") + kParams[kind == 1][in - 1] + ")";
   return static_cast<ShadeopId>(find_shadeop(kNames[kind], signature));
 }
 
@@ -76,7 +75,8 @@ RxInfoType_t info_type(Type t) {
   }
 }
 
-int query(void* context, int kind, const char* name, void* result, int length, RxInfoType_t* type, int* count) {
+int query(void* context, int kind, const char* name, void* result, int length, RxInfoType_t* type,
+          int* count) {
   const GridCall* call = call_of(context);
   if (!call || !name || !result) return -1;
   RendererServices& services = call->run.state.services;
@@ -93,7 +93,10 @@ int query(void* context, int kind, const char* name, void* result, int length, R
   const size_t bytes =
       value.type == Type::kString ? texts.size() * sizeof(const char*) : value.numbers.size() * sizeof(float);
   if (length < 0 || bytes > static_cast<size_t>(length)) return static_cast<int>(bytes);
-  if (bytes) std::memcpy(result, value.type == Type::kString ? static_cast<const void*>(texts.data()) : value.numbers.data(), bytes);
+  if (bytes)
+    std::memcpy(result,
+                value.type == Type::kString ? static_cast<const void*>(texts.data()) : value.numbers.data(),
+                bytes);
   if (type) *type = info_type(value.type);
   if (count) *count = static_cast<int>(value.count());
   return 0;
@@ -106,7 +109,8 @@ void* context_of_call(void* context) {
 } // namespace
 
 const AnemonePluginServices& plugin_services() {
-  static constexpr AnemonePluginServices kServices{ANEMONE_PLUGIN_SERVICES, noise, matrix, query, context_of_call};
+  static constexpr AnemonePluginServices kServices{ANEMONE_PLUGIN_SERVICES, noise, matrix, query,
+                                                   context_of_call};
   return kServices;
 }
 

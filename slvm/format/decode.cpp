@@ -26,7 +26,8 @@ public:
       words_ = words_.first(words_.size() - 1);
     }
     const Signature& s = info.signature;
-    if (s.result != Type::kVoid && !take({0, s.result, true, false, s.uniform_result, 0}, false)) return false;
+    if (s.result != Type::kVoid && !take({0, s.result, true, false, s.uniform_result, 0}, false))
+      return false;
     for (int i = 0; i < s.param_count; ++i) {
       const SignatureParam& p = s.param(i);
       if (p.output && !take({0, p.type, true, p.array, p.uniform, p.elements}, p.any)) return false;

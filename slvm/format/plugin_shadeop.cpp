@@ -58,7 +58,8 @@ std::shared_ptr<const PluginShadeop> PluginShadeop::storing_to(const std::vector
 }
 
 std::optional<ShadeopId> PluginShadeops::add(std::shared_ptr<const PluginShadeop> function) {
-  auto it = std::find_if(list_.begin(), list_.end(), [&](const auto& f) { return f->name() == function->name(); });
+  auto it =
+      std::find_if(list_.begin(), list_.end(), [&](const auto& f) { return f->name() == function->name(); });
   const auto index = static_cast<size_t>(it - list_.begin());
   if (it == list_.end()) {
     if (list_.size() == kMost) return std::nullopt;

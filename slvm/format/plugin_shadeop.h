@@ -73,7 +73,9 @@ public:
     return own ? own->info() : shadeop(static_cast<ShadeopId>(id));
   }
   /// True when info() may be asked.
-  bool knows(uint32_t id) const { return id < shadeops().size() || (id <= 0xffff && find(static_cast<ShadeopId>(id))); }
+  bool knows(uint32_t id) const {
+    return id < shadeops().size() || (id <= 0xffff && find(static_cast<ShadeopId>(id)));
+  }
   const std::vector<std::shared_ptr<const PluginShadeop>>& list() const { return list_; }
   /// Paths of the libraries, sorted, none twice.
   std::vector<std::string> libraries() const;
@@ -96,7 +98,8 @@ public:
   virtual Functions find(std::string_view function, std::vector<std::string>& trouble) const = 0;
   /// All functions of the library of this name, for the statement `plugin "name";`. False: there is none, or
   /// it cannot be used, which `trouble` tells.
-  virtual bool load(std::string_view library, Functions& functions, std::vector<std::string>& trouble) const = 0;
+  virtual bool load(std::string_view library, Functions& functions,
+                    std::vector<std::string>& trouble) const = 0;
 };
 
 } // namespace slvm

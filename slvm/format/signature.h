@@ -43,8 +43,8 @@ struct Signature {
   int param_count = 0;
   std::array<SignatureParam, kMaxParams> params{};
   const SignatureParam* room = nullptr; // where the parameters are instead: those of plug-ins, any number
-  std::string_view token_set; // "" when the shadeop takes no token-value pairs
-  bool ok = false;            // false: the text does not follow the grammar above
+  std::string_view token_set;           // "" when the shadeop takes no token-value pairs
+  bool ok = false;                      // false: the text does not follow the grammar above
 
   /// Fewest and most arguments before token-value pairs; most is -1 for "any number".
   constexpr int min_args() const { return param_count; }
@@ -109,7 +109,8 @@ struct SignatureParser {
       return false;
     if (take('[')) {
       for (skip_blanks(); at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at)
-        if ((p.elements = p.elements * 10 + static_cast<uint32_t>(text[at] - '0')) > kMaxElements) return false;
+        if ((p.elements = p.elements * 10 + static_cast<uint32_t>(text[at] - '0')) > kMaxElements)
+          return false;
       if (!take(']')) return false;
       p.array = true;
     }

@@ -434,8 +434,7 @@ private:
     };
     if (signature.result != Type::kVoid) store(false);
     for (int i = 0; i < signature.param_count; ++i)
-      if (signature.param(i).output)
-        store(signature.param(i).any);
+      if (signature.param(i).output) store(signature.param(i).any);
     auto stores = static_cast<uint32_t>(operands.size());
     operands.insert(operands.end(), reads.begin(), reads.end());
     if (info.flags & kDerivative) {

@@ -27,7 +27,8 @@ std::shared_ptr<const PluginLibrary> PluginFinder::open(const std::string& path,
   return it->second.library;
 }
 
-PluginSource::Functions PluginFinder::find(std::string_view function, std::vector<std::string>& trouble) const {
+PluginSource::Functions PluginFinder::find(std::string_view function,
+                                           std::vector<std::string>& trouble) const {
   std::lock_guard lock(mutex_);
   std::vector<std::string> files = list_libraries(folders_);
   if (std::string own = find_library(function, folders_); !own.empty()) {
@@ -47,7 +48,8 @@ PluginSource::Functions PluginFinder::find(std::string_view function, std::vecto
   return found;
 }
 
-bool PluginFinder::load(std::string_view name, Functions& functions, std::vector<std::string>& trouble) const {
+bool PluginFinder::load(std::string_view name, Functions& functions,
+                        std::vector<std::string>& trouble) const {
   std::lock_guard lock(mutex_);
   const std::string file = find_library(name, folders_);
   if (file.empty()) {

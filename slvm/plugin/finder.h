@@ -1,5 +1,6 @@
-// Finds functions of plug-ins for the compiler, in folders that the user gave. PUBLIC. Libraries are opened when a function is
-// asked for that nothing else has: first those named after it, then all others, in order. Thread-safe.
+// Finds functions of plug-ins for the compiler, in folders that the user gave. PUBLIC. Libraries are opened
+// when a function is asked for that nothing else has: first those named after it, then all others, in order.
+// Thread-safe.
 #pragma once
 
 #include "slvm/plugin/library.h"

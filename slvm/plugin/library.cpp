@@ -44,10 +44,12 @@ std::string PluginLibrary::read_grid_table() {
   if (!symbol) return "";
   const auto* version = static_cast<const int*>(library_->symbol("anemone_rslplugin_interface"));
   if (!version)
-    return "its RslPublicFunctions was not compiled with Anemone's RslPlugin.h: compile its source with that header";
+    return "its RslPublicFunctions was not compiled with Anemone's RslPlugin.h: compile its source with that "
+           "header";
   if (*version != ANEMONE_RSLPLUGIN_INTERFACE)
-    return fmt::format("it was compiled with version {} of RslPlugin.h, this program wants version {}: compile it again",
-                       *version, ANEMONE_RSLPLUGIN_INTERFACE);
+    return fmt::format(
+        "it was compiled with version {} of RslPlugin.h, this program wants version {}: compile it again",
+        *version, ANEMONE_RSLPLUGIN_INTERFACE);
   const auto& table = *static_cast<const RslFunctionTable*>(symbol);
   library_init_ = reinterpret_cast<void*>(table.init);
   library_cleanup_ = reinterpret_cast<void*>(table.cleanup);
@@ -94,9 +96,10 @@ bool PluginLibrary::read_entry(const PointwiseRow& row, const std::string& funct
     if (name.empty()) continue;
     *address = library_->symbol(name);
     if (!*address)
-      return fail(fmt::format("the library exports no '{}'; in C++ it needs extern \"C\", which the macros of "
-                              "shadeop.h bring",
-                              name.substr(0, 100)));
+      return fail(
+          fmt::format("the library exports no '{}'; in C++ it needs extern \"C\", which the macros of "
+                      "shadeop.h bring",
+                      name.substr(0, 100)));
   }
   out.thread_safe = library_->symbol(function + "_threadsafe") != nullptr;
   out.shared = std::hash<std::string>()(init + '/' + shutdown);
@@ -123,7 +126,8 @@ std::vector<PluginEntry> PluginLibrary::functions(const std::string& function,
   for (const PluginEntry& entry : grid_)
     if (entry.function == function) found.push_back(entry);
   for (const std::string& problem : grid_trouble_)
-    if (problem.find(' ' + function + '(') != problem.npos || problem.find(' ' + function + ' ') != problem.npos)
+    if (problem.find(' ' + function + '(') != problem.npos ||
+        problem.find(' ' + function + ' ') != problem.npos)
       trouble.push_back(problem);
   return found;
 }

@@ -1,6 +1,7 @@
-// One library of functions for shaders, opened: what its tables say. PUBLIC. Two forms (docs/plugins.md): a table NAME_shadeops
-// for each function (sdk/shadeop.h, called by point), and one table RslPublicFunctions (sdk/RslPlugin.h, called by
-// grid). Read next: finder.h (for the compiler), slvm/exec/plugin_host.h (running them).
+// One library of functions for shaders, opened: what its tables say. PUBLIC. Two forms (docs/plugins.md): a
+// table NAME_shadeops for each function (sdk/shadeop.h, called by point), and one table RslPublicFunctions
+// (sdk/RslPlugin.h, called by grid). Read next: finder.h (for the compiler), slvm/exec/plugin_host.h (running
+// them).
 #pragma once
 
 #include "slvm/format/plugin_shadeop.h"
@@ -15,10 +16,10 @@ struct PluginEntry {
   std::string function;
   std::string signature; ///< as in PluginFunctionName
   PluginForm form = PluginForm::kPointwise;
-  void* entry = nullptr;                       ///< SHADEOP, or RslEntryFunc
-  void *init = nullptr, *shutdown = nullptr;   ///< null: none
-  void *begin = nullptr, *end = nullptr;       ///< of grid functions: before init and after shutdown
-  bool thread_safe = false;                    ///< several threads may call it at once
+  void* entry = nullptr;                     ///< SHADEOP, or RslEntryFunc
+  void *init = nullptr, *shutdown = nullptr; ///< null: none
+  void *begin = nullptr, *end = nullptr;     ///< of grid functions: before init and after shutdown
+  bool thread_safe = false;                  ///< several threads may call it at once
   /// Functions of one table with the same init and shutdown share what init returns. Equal for those.
   size_t shared = 0;
 };
@@ -33,8 +34,8 @@ public:
   const std::string& path() const { return library_->path(); }
   /// File name without folders.
   std::string name() const;
-  /// Functions of this name, of both forms, in the order of their tables. `trouble`: entries that cannot be used,
-  /// and why.
+  /// Functions of this name, of both forms, in the order of their tables. `trouble`: entries that cannot be
+  /// used, and why.
   std::vector<PluginEntry> functions(const std::string& function, std::vector<std::string>& trouble) const;
   /// All functions of the table of grid functions; those of the other form are known by name only.
   const std::vector<PluginEntry>& grid_functions() const { return grid_; }

@@ -79,7 +79,8 @@ private:
     if (!type(w, p.result)) return false;
     if (take('[')) return fail("it returns an array, which functions of shaders cannot");
     p.name = word();
-    if (p.name.empty() || is_digit(p.name[0])) return fail(fmt::format("a name is missing where {}", found()));
+    if (p.name.empty() || is_digit(p.name[0]))
+      return fail(fmt::format("a name is missing where {}", found()));
     if (p.uniform_result && p.varying_result) return fail("its result is both uniform and varying");
     return true;
   }
@@ -100,7 +101,8 @@ private:
   }
 
   bool param(PrototypeParam& p) {
-    if (take('.')) return fail("it takes any number of arguments ('...'), which calls from shaders cannot give it");
+    if (take('.'))
+      return fail("it takes any number of arguments ('...'), which calls from shaders cannot give it");
     std::string_view w = word();
     for (; w == "uniform" || w == "varying" || w == "output"; w = word()) {
       p.uniform |= w == "uniform";
@@ -146,7 +148,8 @@ std::string Prototype::signature() const {
 }
 
 Result<Prototype> parse_prototype(std::string_view text) {
-  if (text.size() > kMaxPrototype) return Error{fmt::format("it is longer than {} characters", kMaxPrototype)};
+  if (text.size() > kMaxPrototype)
+    return Error{fmt::format("it is longer than {} characters", kMaxPrototype)};
   return PrototypeParser(text).parse();
 }
 

@@ -2,10 +2,11 @@
 // "uniform color blend(uniform string mode, color a, output color b, float[3])".
 //
 //   prototype = { "uniform" | "varying" } type name "(" [ "void" | param { "," param } ] ")" [ ";" ]
-//   param     = { "uniform" | "varying" | "output" } type [ "[" [ number ] "]" ] [ name [ "[" [ number ] "]" ] ]
+//   param     = { "uniform" | "varying" | "output" } type [ "[" [ number ] "]" ] [ name [ "[" [ number ] "]"
+//   ] ]
 //
-// Whatever stands for a name is one: real tables have "float float". The strings come from native code, but tables may
-// be wrong or not end: everything is bounded.
+// Whatever stands for a name is one: real tables have "float float". The strings come from native code, but
+// tables may be wrong or not end: everything is bounded.
 #pragma once
 
 #include "slvm/format/plugin_shadeop.h"

@@ -21,8 +21,10 @@ void on_crash(int signal) {
 }
 
 const char* name_of(int signal) {
-  return signal == SIGSEGV ? "segmentation fault" : signal == SIGBUS ? "bus error"
-         : signal == SIGFPE ? "arithmetic error" : "illegal instruction";
+  return signal == SIGSEGV  ? "segmentation fault"
+         : signal == SIGBUS ? "bus error"
+         : signal == SIGFPE ? "arithmetic error"
+                            : "illegal instruction";
 }
 
 } // namespace
@@ -39,7 +41,8 @@ std::string call_catching(const std::function<void()>& f) {
 }
 
 std::string call_guarded(const std::function<void()>& f) {
-  struct sigaction ours {}, before[std::size(kSignals)];
+  struct sigaction ours {
+  }, before[std::size(kSignals)];
   ours.sa_handler = on_crash;
   sigemptyset(&ours.sa_mask);
   ours.sa_flags = SA_NODEFER;

@@ -93,8 +93,9 @@ std::vector<std::string> plugin_folders(std::string_view text) {
 
 std::string plugin_folders_advice(std::span<const std::string> folders) {
   if (folders.empty())
-    return fmt::format("plug-ins are native code, and only those are used that lie in folders given with {} or in {}",
-                       kPluginFoldersSwitch, kPluginFoldersVariable);
+    return fmt::format(
+        "plug-ins are native code, and only those are used that lie in folders given with {} or in {}",
+        kPluginFoldersSwitch, kPluginFoldersVariable);
   return fmt::format("searched in {}; {} adds folders", fmt::join(folders, ", "), kPluginFoldersSwitch);
 }
 

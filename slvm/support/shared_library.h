@@ -1,5 +1,6 @@
-// Shared libraries that are opened while a program runs: plug-ins. PUBLIC. They are native code: whoever opens one
-// looks only in folders that the user of the program named, on its command line or in the environment.
+// Shared libraries that are opened while a program runs: plug-ins. PUBLIC. They are native code: whoever
+// opens one looks only in folders that the user of the program named, on its command line or in the
+// environment.
 #pragma once
 
 #include "slvm/support/result.h"
@@ -14,8 +15,8 @@ namespace slvm {
 
 class SharedLibrary {
 public:
-  /// Everything the library needs of others must be there. The error names the file and what is wrong with it. Code of
-  /// the library may run in here.
+  /// Everything the library needs of others must be there. The error names the file and what is wrong with
+  /// it. Code of the library may run in here.
   static Result<std::shared_ptr<const SharedLibrary>> open(const std::string& path);
   ~SharedLibrary();
   SharedLibrary(const SharedLibrary&) = delete;
@@ -33,9 +34,9 @@ private:
   void* handle_;
 };
 
-/// The file of the plug-in `name` in the first of the folders that has it: the name as it stands, with ".so", or as
-/// lib<name>.so. Folders in `name` count only below those given: neither absolute names nor ".." lead elsewhere. ""
-/// when there is none.
+/// The file of the plug-in `name` in the first of the folders that has it: the name as it stands, with ".so",
+/// or as lib<name>.so. Folders in `name` count only below those given: neither absolute names nor ".." lead
+/// elsewhere. "" when there is none.
 std::string find_library(std::string_view name, std::span<const std::string> folders);
 /// All shared libraries in the folders, folder by folder, by name.
 std::vector<std::string> list_libraries(std::span<const std::string> folders);

@@ -1,5 +1,5 @@
-// How often functions are called: once for a grid where nothing varies, else for each active point; and that the same
-// happens at every level of optimisation, strip width and after a file was written and read.
+// How often functions are called: once for a grid where nothing varies, else for each active point; and that
+// the same happens at every level of optimisation, strip width and after a file was written and read.
 #include "tests/plugins/plugged.h"
 
 namespace slvm::test {
@@ -23,8 +23,10 @@ TEST_F(PluginDetail, DeclaredVaryingThoughWithoutArguments) {
 }
 
 TEST_F(PluginDetail, OnlyActivePointsCount) {
-  EXPECT_THAT(shade("float r = 0; if (xcomp(P) > 0.5) r = pt_count(xcomp(P)); Ci = r;", 4), ElementsAre(0, 0, 1, 2));
-  EXPECT_THAT(shade("float r = 0; if (xcomp(P) > 2) r = pt_count(xcomp(P)); Ci = r + pt_count(1);", 4), Each(1.0f));
+  EXPECT_THAT(shade("float r = 0; if (xcomp(P) > 0.5) r = pt_count(xcomp(P)); Ci = r;", 4),
+              ElementsAre(0, 0, 1, 2));
+  EXPECT_THAT(shade("float r = 0; if (xcomp(P) > 2) r = pt_count(xcomp(P)); Ci = r + pt_count(1);", 4),
+              Each(1.0f));
 }
 
 TEST_F(PluginDetail, AUniformCallUnderVaryingControlHappensOnce) {
@@ -40,20 +42,27 @@ TEST_F(PluginDetail, CallsOfOneStatementComeBeforeThoseOfTheNext) {
 
 TEST_F(PluginDetail, NothingIsMergedMovedOrRemoved) {
   for (int level : {0, 1, 2}) {
-    EXPECT_THAT(shade("float a = pt_count(1), b = pt_count(1); pt_count(1); Ci = pt_count(1);", 4, 0, level), Each(4.0f));
-    EXPECT_THAT(shade("float i, r = 0; for (i = 0; i < 5; i += 1) r = pt_count(1); Ci = r;", 4, 0, level), Each(5.0f));
+    EXPECT_THAT(shade("float a = pt_count(1), b = pt_count(1); pt_count(1); Ci = pt_count(1);", 4, 0, level),
+                Each(4.0f));
+    EXPECT_THAT(shade("float i, r = 0; for (i = 0; i < 5; i += 1) r = pt_count(1); Ci = r;", 4, 0, level),
+                Each(5.0f));
   }
 }
 
 TEST_F(PluginDetail, ShortCircuitsHold) {
-  EXPECT_THAT(shade("float r = 0; if (xcomp(P) > 0.5 && pt_count(xcomp(P)) > 0) r = 1; Ci = color(r, pt_count(1), 0);", 4, 1),
-              Each(3.0f));
+  EXPECT_THAT(
+      shade(
+          "float r = 0; if (xcomp(P) > 0.5 && pt_count(xcomp(P)) > 0) r = 1; Ci = color(r, pt_count(1), 0);",
+          4, 1),
+      Each(3.0f));
 }
 
 TEST_F(PluginDetail, FilesKeepTheFunctions) {
-  std::vector<std::byte> bytes = compile("surface s() { float x = xcomp(P); gr_largest(x, x); Ci = pt_sum(x) + gr_sum(1); }");
+  std::vector<std::byte> bytes =
+      compile("surface s() { float x = xcomp(P); gr_largest(x, x); Ci = pt_sum(x) + gr_sum(1); }");
   ASSERT_TRUE(bytes.empty()); // a varying variable for a uniform output
-  bytes = compile("surface s(float k = 2) { uniform float m = 0; gr_largest(xcomp(P) * k, m); Ci = pt_sum(m) + gr_sum(1); }");
+  bytes = compile("surface s(float k = 2) { uniform float m = 0; gr_largest(xcomp(P) * k, m); Ci = pt_sum(m) "
+                  "+ gr_sum(1); }");
   ASSERT_FALSE(bytes.empty()) << diagnostics;
   auto program = read_slo(bytes);
   ASSERT_TRUE(program);
@@ -76,8 +85,9 @@ TEST_F(PluginDetail, FilesKeepTheFunctions) {
 }
 
 TEST_F(PluginDetail, StripsAndThreadsDoNotMatter) {
-  const std::string source = "surface s() { float x = xcomp(P), r = 0, i; for (i = 0; i < 3; i += 1) { if (mod(floor(x * 97), 2) == "
-                             "i) r += gr_sum(x) + xcomp(pt_sum(P)); } Ci = r; }";
+  const std::string source =
+      "surface s() { float x = xcomp(P), r = 0, i; for (i = 0; i < 3; i += 1) { if (mod(floor(x * 97), 2) == "
+      "i) r += gr_sum(x) + xcomp(pt_sum(P)); } Ci = r; }";
   std::vector<float> expected;
   for (uint32_t strip : {16u, 64u, 4096u}) {
     Plugged other;

@@ -83,8 +83,14 @@ int largest(RslContext*, int, const RslArg* argv[]) {
 int describe(RslContext*, int, const RslArg* argv[]) {
   RslFloatIter result(argv[0]);
   const RslArg& a = *argv[1];
-  float kind = a.IsFloat() ? 1 : a.IsPoint() ? 2 : a.IsVector() ? 3 : a.IsNormal() ? 4 : a.IsColor() ? 5 : a.IsMatrix() ? 6
-               : a.IsString() ? 7 : 0;
+  float kind = a.IsFloat()    ? 1
+               : a.IsPoint()  ? 2
+               : a.IsVector() ? 3
+               : a.IsNormal() ? 4
+               : a.IsColor()  ? 5
+               : a.IsMatrix() ? 6
+               : a.IsString() ? 7
+                              : 0;
   for (unsigned int i = 0; i < argv[0]->NumValues(); ++i, ++result)
     *result = kind + 10.0f * a.IsVarying() + 100.0f * a.IsArray() + 1000.0f * a.IsWriteable() +
               10000.0f * a.IsResizable() + 100000.0f * static_cast<float>(a.GetArrayLength()) +
@@ -101,7 +107,8 @@ int raw(RslContext* context, int, const RslArg* argv[]) {
   argv[0]->GetData(&to, &to_stride);
   argv[1]->GetData(&from, &from_stride);
   for (unsigned int i = 0; i < points; ++i)
-    if (flags[i]) to[i * static_cast<unsigned>(to_stride)] = 10 * from[i * static_cast<unsigned>(from_stride)];
+    if (flags[i])
+      to[i * static_cast<unsigned>(to_stride)] = 10 * from[i * static_cast<unsigned>(from_stride)];
   return 0;
 }
 
@@ -141,7 +148,8 @@ int throws(RslContext*, int, const RslArg*[]) {
 RslFunction functions[] = {
     {"float gr_sum(float, point, vector, normal, color, matrix, string, float[3], color[])", sum, NULL, NULL},
     {"float gr_sum(float x)", sum_float, NULL, NULL},
-    {"void gr_out(float, output float, output point, output color, output matrix, output string, output float[2], "
+    {"void gr_out(float, output float, output point, output color, output matrix, output string, output "
+     "float[2], "
      "output string[])",
      out, NULL, NULL},
     {"void gr_largest(varying float x, output uniform float most)", largest, NULL, NULL},

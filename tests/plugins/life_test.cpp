@@ -73,8 +73,9 @@ TEST_F(PluginLife, FunctionsByGridAreInitialisedOncePerFrame) {
       EXPECT_EQ(p.machine.end_plugins(), "");
     }
   } // the second frame ends with the machine
-  const std::string frame = "library init\nbegin\ninit\nend of grid\nend of grid\nend of grid\nend of thread\nend of thread\n"
-                            "end of frame\ncleanup\nend\nlibrary cleanup\n";
+  const std::string frame =
+      "library init\nbegin\ninit\nend of grid\nend of grid\nend of grid\nend of thread\nend of thread\n"
+      "end of frame\ncleanup\nend\nlibrary cleanup\n";
   EXPECT_EQ(log(), frame + frame);
 }
 
@@ -87,7 +88,9 @@ TEST_F(PluginLife, InstancesOfAnEarlierFrameGoOn) {
   ShadingContext context(p.machine, p.services);
   context.shade({.surface = surface.get()}, grid);
   EXPECT_THAT(red(grid, 2), Each(1.0f));
-  EXPECT_EQ(log(), "library init\nbegin\ninit\ncleanup\nend\nlibrary cleanup\nlibrary init\nbegin\ninit\nend of grid\n");
+  EXPECT_EQ(
+      log(),
+      "library init\nbegin\ninit\ncleanup\nend\nlibrary cleanup\nlibrary init\nbegin\ninit\nend of grid\n");
 }
 
 // Shades the same in several threads at once; what they got, added up.
@@ -137,7 +140,8 @@ TEST_F(PluginLife, MessagesNameTheLine) {
   Grid grid = square(4, 1);
   ShadingContext context(p.machine, p.services);
   context.shade({.surface = surface.get()}, grid);
-  EXPECT_THAT(p.messages(), ElementsAre("3: services.so: 3 crumbs (2)", "3: services.so: no cheese left (2)"));
+  EXPECT_THAT(p.messages(),
+              ElementsAre("3: services.so: 3 crumbs (2)", "3: services.so: no cheese left (2)"));
   EXPECT_EQ(p.services.printed, "services.so: a good year\n");
 }
 

@@ -1,5 +1,5 @@
-// The ways of writing that sources of other renderers have: tables inside and behind extern "C", const char** for
-// strings, functions that return 1, prototypes with blanks, names and superfluous words.
+// The ways of writing that sources of other renderers have: tables inside and behind extern "C", const char**
+// for strings, functions that return 1, prototypes with blanks, names and superfluous words.
 #include <shadeop.h>
 
 extern "C" {

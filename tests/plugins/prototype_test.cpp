@@ -28,7 +28,8 @@ TEST(Prototype, DetailOutputsAndArrays) {
 TEST(Prototype, WaysOfWriting) {
   EXPECT_EQ(signature_of("  float\tsqr_f ( float ) ;\n"), "sqr_f: float(float a1)");
   EXPECT_EQ(signature_of("float  and (float,  float)"), "and: float(float a1, float a2)");
-  EXPECT_EQ(signature_of("float P(string, float float, float)"), "P: float(string a1, float float, float a3)");
+  EXPECT_EQ(signature_of("float P(string, float float, float)"),
+            "P: float(string a1, float float, float a3)");
 }
 
 TEST(Prototype, EveryPluginSignatureIsOneOfTheTable) {
@@ -72,8 +73,9 @@ TEST(Prototype, IsBounded) {
 }
 
 TEST(Prototype, SignaturesOfOtherKindsAreRefused) {
-  for (const char* text : {"float(any x)", "float(float x...)", "float(@texture)", "bool(float x)", "float(output float x)",
-                           "float(float[3 x)", "nonsense", "float(float[2000000] x)"})
+  for (const char* text :
+       {"float(any x)", "float(float x...)", "float(@texture)", "bool(float x)", "float(output float x)",
+        "float(float[3 x)", "nonsense", "float(float[2000000] x)"})
     EXPECT_FALSE(PluginShadeop::make({"f", text, "x.so", PluginForm::kGrid})) << text;
   EXPECT_FALSE(PluginShadeop::make({"", "float(float x)", "x.so", PluginForm::kGrid}));
 }

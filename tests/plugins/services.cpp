@@ -1,5 +1,5 @@
-// What plug-ins ask of the program: storage of three lives, messages, locks, statistics, noise, spaces, attributes; and
-// when their functions are called in a frame, as lines of the file LIFE_LOG.
+// What plug-ins ask of the program: storage of three lives, messages, locks, statistics, noise, spaces,
+// attributes; and when their functions are called in a frame, as lines of the file LIFE_LOG.
 #include "RslPlugin.h"
 #include "rx.h"
 
@@ -22,7 +22,8 @@ RixMutex* guard = NULL;
 void library_init(RixContext* context) {
   note("library init");
   guard = static_cast<RixThreadUtils*>(context->GetRixInterface(k_RixThreadUtils))->NewMutex();
-  static_cast<RixStats*>(context->GetRixInterface(k_RixStats))->AddTimerStat(&seconds, "services", "time it took");
+  static_cast<RixStats*>(context->GetRixInterface(k_RixStats))
+      ->AddTimerStat(&seconds, "services", "time it took");
 }
 void library_cleanup(RixContext*) {
   note("library cleanup");
@@ -48,7 +49,8 @@ void release(RixContext*, void* data) {
 int visits(RslContext* context, int, const RslArg* argv[]) {
   static int counts[3][1000];
   static int used[3];
-  RixStorage* storages[] = {context->GetLocalStorage(), context->GetThreadStorage(), context->GetGlobalStorage()};
+  RixStorage* storages[] = {context->GetLocalStorage(), context->GetThreadStorage(),
+                            context->GetGlobalStorage()};
   RslColorIter result(argv[0]);
   guard->Lock();
   for (int i = 0; i < 3; ++i) {

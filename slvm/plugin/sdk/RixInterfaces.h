@@ -1,17 +1,17 @@
 // What a plug-in can ask of the program that runs it: messages, storage, locks, tokens, statistics. From
-// RixContext::GetRixInterface(id); null for ids that this program does not serve. Interfaces are not to be deleted; a
-// RixMutex is, by who made it.
+// RixContext::GetRixInterface(id); null for ids that this program does not serve. Interfaces are not to be
+// deleted; a RixMutex is, by who made it.
 #pragma once
 
 #include <stddef.h>
 
 enum RixInterfaceId {
-  k_RixGlobalData,  ///< RixStorage of the frame: lock it
-  k_RixThreadData,  ///< RixStorage of the thread
-  k_RixLocalData,   ///< RixStorage of the grid: gone when its shaders have run
-  k_RixMessages,    ///< RixMessages
-  k_RixStats,       ///< RixStats
-  k_RixThreadUtils, ///< RixThreadUtils
+  k_RixGlobalData,      ///< RixStorage of the frame: lock it
+  k_RixThreadData,      ///< RixStorage of the thread
+  k_RixLocalData,       ///< RixStorage of the grid: gone when its shaders have run
+  k_RixMessages,        ///< RixMessages
+  k_RixStats,           ///< RixStats
+  k_RixThreadUtils,     ///< RixThreadUtils
   k_RixGlobalTokenData, ///< RixTokenStorage
   k_RixRenderState,     ///< not served
   k_RixSamplingPattern  ///< not served
@@ -29,8 +29,8 @@ public:
   virtual RixInterface* GetRixInterface(RixInterfaceId id) const = 0;
 };
 
-/// Messages of the renderer, which folds equal ones; with Always: the same here. Inside a call of a shader they name its
-/// line.
+/// Messages of the renderer, which folds equal ones; with Always: the same here. Inside a call of a shader
+/// they name its line.
 class RixMessages : public RixInterface {
 public:
   virtual void Error(const char* format, ...) = 0;
@@ -43,8 +43,8 @@ public:
 
 typedef void (*RixCleanupFunc)(RixContext* context, void* data);
 
-/// Data by name. Cleanup functions are called with what they belong to when it is replaced or cleared, and at the end
-/// of the storage's life.
+/// Data by name. Cleanup functions are called with what they belong to when it is replaced or cleared, and at
+/// the end of the storage's life.
 class RixStorage : public RixInterface {
 public:
   virtual void* Get(const char* key) = 0;

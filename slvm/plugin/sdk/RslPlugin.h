@@ -1,5 +1,6 @@
-// Functions for shaders that are called once for all points of a grid, in C++ ("RSL plug-ins"). A source includes this,
-// is compiled to a shared library and put into a folder that --dso or ANEMONE_DSO_PATH names. docs/plugins.md tells more.
+// Functions for shaders that are called once for all points of a grid, in C++ ("RSL plug-ins"). A source
+// includes this, is compiled to a shared library and put into a folder that --dso or ANEMONE_DSO_PATH names.
+// docs/plugins.md tells more.
 //
 //   static int sqr(RslContext*, int argc, const RslArg* argv[]) {
 //     RslFloatIter result(argv[0]), x(argv[1]);
@@ -9,9 +10,9 @@
 //   static RslFunction functions[] = {{"float sqr(float)", sqr, NULL, NULL}, {NULL}};
 //   RSLEXPORT RslFunctionTable RslPublicFunctions(functions);
 //
-// Prototypes: "[uniform|varying] result name([uniform] [output] type [[n]] [name], ...)". Entries of one name are
-// overloads. argv[0] is the result (something unused when that is void), argv[1] and so on are the arguments. A
-// function may be called by several threads at once, and returns 0 when all went well.
+// Prototypes: "[uniform|varying] result name([uniform] [output] type [[n]] [name], ...)". Entries of one name
+// are overloads. argv[0] is the result (something unused when that is void), argv[1] and so on are the
+// arguments. A function may be called by several threads at once, and returns 0 when all went well.
 #pragma once
 
 #include "RixInterfaces.h"
@@ -36,7 +37,8 @@ typedef unsigned int RslIncrType;
 /// The call: the grid it is on, and services.
 class RslContext : public RixContext {
 public:
-  /// 1 for each point of the grid that is active, else 0; `length` becomes the number of points. For RslArg::GetData.
+  /// 1 for each point of the grid that is active, else 0; `length` becomes the number of points. For
+  /// RslArg::GetData.
   virtual const RslRunFlag* GetRunFlags(unsigned int* length) const = 0;
   virtual const char* GetPluginName() const = 0;
 
@@ -98,8 +100,9 @@ public:
       if (argv[i]->NumValues() > most) most = argv[i]->NumValues();
     return most;
   }
-  /// The values of all points of the grid, those that are not active too (which mean nothing); `stride`: floats from
-  /// one point to the next, 0 when uniform. Of strings these are char*, 8 bytes or two floats each.
+  /// The values of all points of the grid, those that are not active too (which mean nothing); `stride`:
+  /// floats from one point to the next, 0 when uniform. Of strings these are char*, 8 bytes or two floats
+  /// each.
   virtual void GetData(float** data, int* stride) const = 0;
   /// Of the parameter, as the prototype has it.
   virtual const char* GetName() const = 0;
@@ -107,7 +110,8 @@ public:
 private:
   template <typename T> friend class RslIter;
   template <typename T> friend class RslArrayIter;
-  /// The value of the first active point, floats from point to point, and the steps from one active point to the next.
+  /// The value of the first active point, floats from point to point, and the steps from one active point to
+  /// the next.
   virtual void iterate(float** data, int* stride, const RslIncrType** steps) const = 0;
 };
 
@@ -117,7 +121,8 @@ public:
   RslIter(const RslArg* arg) : varying_(arg->IsVarying()) { arg->iterate(&data_, &stride_, &steps_); }
   /// A value of one's own, as if it were a uniform argument.
   RslIter(const T* data, const RslContext* context)
-      : data_(reinterpret_cast<float*>(const_cast<T*>(data))), stride_(0), steps_(context->steps()), varying_(false) {}
+      : data_(reinterpret_cast<float*>(const_cast<T*>(data))), stride_(0), steps_(context->steps()),
+        varying_(false) {}
 
   T& operator*() { return *reinterpret_cast<T*>(data_); }
   const T& operator*() const { return *reinterpret_cast<const T*>(data_); }
@@ -146,8 +151,8 @@ public:
     arg->iterate(&data_, &stride_, &steps_);
   }
   RslArrayIter(const T* data, int length, const RslContext* context)
-      : data_(reinterpret_cast<float*>(const_cast<T*>(data))), stride_(0), steps_(context->steps()), length_(length),
-        varying_(false) {}
+      : data_(reinterpret_cast<float*>(const_cast<T*>(data))), stride_(0), steps_(context->steps()),
+        length_(length), varying_(false) {}
 
   T* operator*() { return reinterpret_cast<T*>(data_); }
   T& operator[](int k) { return reinterpret_cast<T*>(data_)[k]; }
@@ -189,8 +194,8 @@ typedef RslArrayIter<RtMatrix> RslMatrixArrayIter;
 typedef int (*RslEntryFunc)(RslContext* context, int argc, const RslArg* argv[]);
 typedef void (*RslVoidFunc)(RixContext* context);
 
-/// `init` and `cleanup` are called once in each frame, before the function's first and after its last call; `begin` and
-/// `end` likewise, before and after those.
+/// `init` and `cleanup` are called once in each frame, before the function's first and after its last call;
+/// `begin` and `end` likewise, before and after those.
 struct RslFunction {
   const char* prototype;
   RslEntryFunc entry;
@@ -200,13 +205,14 @@ struct RslFunction {
   RslVoidFunc end;
 };
 
-/// The library's table, always called RslPublicFunctions. `init` and `cleanup`: before the first and after the last
-/// function of the library in a frame.
+/// The library's table, always called RslPublicFunctions. `init` and `cleanup`: before the first and after
+/// the last function of the library in a frame.
 struct RslFunctionTable {
   const RslFunction* functions;
   RslVoidFunc init;
   RslVoidFunc cleanup;
-  RslFunctionTable(const RslFunction* list, RslVoidFunc init_library = NULL, RslVoidFunc cleanup_library = NULL)
+  RslFunctionTable(const RslFunction* list, RslVoidFunc init_library = NULL,
+                   RslVoidFunc cleanup_library = NULL)
       : functions(list), init(init_library), cleanup(cleanup_library) {}
 };
 

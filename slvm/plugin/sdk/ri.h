@@ -1,6 +1,6 @@
-// The types of the RenderMan Interface, for sources of plug-ins that include ri.h. Its functions are no business of
-// functions for shaders; programs that make scenes use another header of this name. Strings are not const here: sources
-// of plug-ins count on that.
+// The types of the RenderMan Interface, for sources of plug-ins that include ri.h. Its functions are no
+// business of functions for shaders; programs that make scenes use another header of this name. Strings are
+// not const here: sources of plug-ins count on that.
 #pragma once
 
 #include <stddef.h>

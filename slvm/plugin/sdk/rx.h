@@ -1,9 +1,10 @@
-// What a plug-in of either kind can ask the renderer during a call: noise, spaces, attributes, options. For C and C++.
-// Outside of a call (init, shutdown) only the noises are served; the others then say that nothing is found.
+// What a plug-in of either kind can ask the renderer during a call: noise, spaces, attributes, options. For C
+// and C++. Outside of a call (init, shutdown) only the noises are served; the others then say that nothing is
+// found.
 //
-// RxAttribute, RxOption, RxRendererInfo: 0 when found, with its type and number of items; -1 when there is none of the
-// name, or the bytes needed when `length` of them are not enough. Strings are given as addresses (char*) of texts that
-// live as long as the renderer.
+// RxAttribute, RxOption, RxRendererInfo: 0 when found, with its type and number of items; -1 when there is
+// none of the name, or the bytes needed when `length` of them are not enough. Strings are given as addresses
+// (char*) of texts that live as long as the renderer.
 #pragma once
 
 #include <stddef.h>
@@ -29,11 +30,13 @@ typedef enum {
 typedef struct AnemonePluginServices {
   int version;
   /// kind: 0 noise, 1 pnoise, 2 cellnoise. 0: done; -1: no such dimensions.
-  int (*noise)(int kind, int in_dimension, const float* in, const float* period, int out_dimension, float* out);
+  int (*noise)(int kind, int in_dimension, const float* in, const float* period, int out_dimension,
+               float* out);
   /// The matrix from one space to another, row by row. 0: done; -1: no such space, or no call is under way.
   int (*matrix)(void* call, const char* from, const char* to, float* sixteen);
   /// kind: 0 attribute, 1 option, 2 rendererinfo.
-  int (*query)(void* call, int kind, const char* name, void* result, int length, RxInfoType_t* type, int* count);
+  int (*query)(void* call, int kind, const char* name, void* result, int length, RxInfoType_t* type,
+               int* count);
   /// A RixContext.
   void* (*context)(void* call);
 } AnemonePluginServices;
@@ -68,7 +71,8 @@ ANEMONE_INLINE int RxTransform(const char* from, const char* to, float time, flo
   (void)time;
   return anemone_services ? anemone_services->matrix(anemone_call, from, to, &matrix[0][0]) : -1;
 }
-ANEMONE_INLINE int RxTransformPoints(const char* from, const char* to, int count, float points[][3], float time) {
+ANEMONE_INLINE int RxTransformPoints(const char* from, const char* to, int count, float points[][3],
+                                     float time) {
   float m[4][4];
   int i;
   if (RxTransform(from, to, time, m)) return -1;
@@ -91,7 +95,8 @@ ANEMONE_INLINE int RxAttribute(const char* name, void* result, int length, RxInf
 ANEMONE_INLINE int RxOption(const char* name, void* result, int length, RxInfoType_t* type, int* count) {
   return anemone_services ? anemone_services->query(anemone_call, 1, name, result, length, type, count) : -1;
 }
-ANEMONE_INLINE int RxRendererInfo(const char* name, void* result, int length, RxInfoType_t* type, int* count) {
+ANEMONE_INLINE int RxRendererInfo(const char* name, void* result, int length, RxInfoType_t* type,
+                                  int* count) {
   return anemone_services ? anemone_services->query(anemone_call, 2, name, result, length, type, count) : -1;
 }
 
