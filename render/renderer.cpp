@@ -23,8 +23,11 @@ namespace render {
 
 struct Renderer::Impl {
   Impl(slvm::SourceManager& sources, slvm::Diagnostics& d, RendererSettings s)
-      : diagnostics(d), settings(std::move(s)), cache(machine, settings.shader_loader),
-        interpreter(sources, d, [this](Scene& scene) { render(scene); }) {
+      : diagnostics(d), settings(std::move(s)), machine({.plugin_folders = settings.plugin_folders}),
+        cache(machine, settings.shader_loader), interpreter(sources, d, [this](Scene& scene) {
+          render(scene);
+          end_plugins();
+        }) {
     interpreter.override_options = settings.override_options;
     interpreter.allow_programs = settings.allow_programs;
     interpreter.program_limits.seconds = settings.program_seconds;
@@ -33,6 +36,7 @@ struct Renderer::Impl {
 
   void render(Scene& scene);
   void report_runtime_messages();
+  void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
   void flush() {
     if (settings.flush_messages) settings.flush_messages();
@@ -172,6 +176,14 @@ void Renderer::Impl::report_runtime_messages() {
     else
       diagnostics.warning({}, "runtime", text);
   }
+}
+
+/// When nothing of the frame is left: plug-ins may have something to say then, too.
+void Renderer::Impl::end_plugins() {
+  const std::string told = machine.end_plugins();
+  if (!told.empty() && settings.plugin_statistics) settings.plugin_statistics(told);
+  report_runtime_messages();
+  flush();
 }
 
 Renderer::Renderer(slvm::SourceManager& sources, slvm::Diagnostics& diagnostics, RendererSettings settings)

@@ -28,6 +28,8 @@ struct RendererSettings {
   /// silent.
   bool allow_programs = false;
   double program_seconds = 60;
+  /// Folders of plug-ins that shaders may call (slvm::MachineOptions::plugin_folders). Scenes add none.
+  std::vector<std::string> plugin_folders;
   ShaderLoader shader_loader = load_compiled_shader;
   /// Called with each frame's options at WorldBegin, after the file's own: command-line overrides.
   std::function<void(Options&)> override_options;
@@ -39,6 +41,8 @@ struct RendererSettings {
   std::function<void()> flush_messages;
   /// Called after each frame with what it cost.
   std::function<void(const FrameStatistics&)> statistics;
+  /// Called after each frame with what plug-ins say of themselves, lines of text, if they do.
+  std::function<void(std::string_view)> plugin_statistics;
   /// Output of printf in shaders.
   std::function<void(std::string_view)> print;
 };

@@ -4,6 +4,7 @@
 
 #include "render/state/search_path.h"
 #include "render/tools/places.h"
+#include "slvm/support/shared_library.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,7 +20,8 @@ namespace {
 constexpr std::string_view kLongNames[] = {
     "help",       "version",       "progress", "Progress",    "progressformat", "crop",
     "res",        "cwd",           "shaders",  "archives",    "threads",        "verbose",
-    "nowarn",     "Werror",        "preview",  "procedurals", "allow-programs", "program-timeout",
+    "nowarn",     "Werror",        "preview",  "procedurals", "dso",            "allow-programs",
+    "program-timeout",
     "statistics", "statisticsfile"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
@@ -73,7 +75,7 @@ Arguments parse_arguments(int argc, char** argv) {
   CLI::App app("Renders RIB scenes with RSL shaders.", "slrender");
   app.set_help_flag("-h,--help", "print this and leave");
   app.set_version_flag("--version", "slrender 0.1.0 (Anemone)");
-  std::string threads = "all", shaders, archives, procedurals;
+  std::string threads = "all", shaders, archives, procedurals, plugins;
   bool updating = false, lines = false;
   std::vector<float> crop;
   std::vector<int> resolution;
@@ -100,6 +102,10 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
   app.add_option("--procedurals", procedurals,
                  "the same for programs that make geometry (environment: ANEMONE_PROCEDURALS)");
+  app.add_option(
+      "--dso", plugins,
+      "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
+      "code (environment: ANEMONE_DSO_PATH)");
   app.add_flag("--allow-programs", out.allow_programs,
                "let scenes run the programs they name (Procedural \"RunProgram\")");
   app.add_option("--program-timeout", out.program_seconds, "seconds such a program may be silent (60)")
@@ -144,6 +150,7 @@ Arguments parse_arguments(int argc, char** argv) {
   out.shader_path = directories(shaders, "ANEMONE_SHADERS", standard_shader_folders());
   out.archive_path = directories(archives, "ANEMONE_ARCHIVES", {});
   out.procedural_path = directories(procedurals, "ANEMONE_PROCEDURALS", {});
+  out.plugin_folders = slvm::plugin_folders(plugins);
   return out;
 }
 

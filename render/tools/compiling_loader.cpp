@@ -7,6 +7,7 @@
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
 #include "slvm/format/stale.h"
+#include "slvm/plugin/finder.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,8 @@ namespace {
 
 class CompilingLoader {
 public:
-  explicit CompilingLoader(std::function<void(std::string_view)> show) : show_(std::move(show)) {}
+  CompilingLoader(std::function<void(std::string_view)> show, std::vector<std::string> plugin_folders)
+      : show_(std::move(show)), plugins_(std::move(plugin_folders)) {}
 
   slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path);
 
@@ -30,6 +32,7 @@ private:
                                     const std::vector<std::string>& path);
 
   std::function<void(std::string_view)> show_;
+  slvm::PluginFinder plugins_;
   // Made when the first source is met: most runs have compiled shaders only.
   std::unique_ptr<slc::Compiler> compiler_;
   std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_;
@@ -77,6 +80,7 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
     for (std::string& folder : parse_search_path(folders, {}, {}))
       options.preprocess.include_dirs.push_back(std::move(folder));
   options.evaluator = evaluator_.get();
+  options.plugins = &plugins_;
   auto shaders = compiler_->compile(sources.add(file, std::move(*text)), options, sources, diagnostics);
   std::string messages = format_diagnostics(diagnostics, sources);
   if (!messages.empty()) show_(messages);
@@ -92,8 +96,9 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
 
 } // namespace
 
-ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show) {
-  auto loader = std::make_shared<CompilingLoader>(std::move(show));
+ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show,
+                                   std::vector<std::string> plugin_folders) {
+  auto loader = std::make_shared<CompilingLoader>(std::move(show), std::move(plugin_folders));
   return [loader](const std::string& name, const std::vector<std::string>& path) {
     return loader->load(name, path);
   };

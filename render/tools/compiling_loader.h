@@ -6,11 +6,15 @@
 #include "render/shading/shader_loader.h"
 
 #include <functional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace render::tools {
 
-/// `show` gets warnings and the compiler's messages, ready to be printed.
-ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show);
+/// `show` gets warnings and the compiler's messages, ready to be printed. `plugin_folders`: where functions
+/// of plug-ins are found.
+ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show,
+                                   std::vector<std::string> plugin_folders = {});
 
 } // namespace render::tools

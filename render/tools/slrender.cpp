@@ -109,7 +109,9 @@ int run(const Arguments& arguments) {
   settings.preview = arguments.preview;
   settings.program_seconds = arguments.program_seconds;
   settings.shader_loader = render::tools::make_compiling_loader(
-      [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
+      [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); },
+      arguments.plugin_folders);
+  settings.plugin_folders = arguments.plugin_folders;
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
   settings.flush_messages = [&] { messages.flush(); };
   settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
@@ -118,6 +120,10 @@ int run(const Arguments& arguments) {
     if (arguments.statistics || s.asked_for) std::fputs(format_text(s).c_str(), stderr);
     statistics += format_json(s) + "\n";
   };
+  if (arguments.statistics)
+    settings.plugin_statistics = [](std::string_view text) {
+      std::fwrite(text.data(), 1, text.size(), stderr);
+    };
   if (progress.wanted()) settings.progress = [&](double fraction) { progress.show(fraction); };
 
   render::Renderer renderer(messages.sources, messages.diagnostics, settings);
