@@ -82,7 +82,7 @@ void Interpreter::coord_sys_transform(const RequestCall& call) {
     ctm_ = *m;
   else
     error_at(call.arguments[0].where, call,
-             fmt::format("no coordinate system is named \"{}\"", call.text(0)));
+             fmt::format("no coordinate system is named \"{}\"", call.text(0)), RiError::kBadToken);
 }
 
 } // namespace render

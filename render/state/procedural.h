@@ -13,9 +13,19 @@
 
 namespace render {
 
+/// Makes the geometry of a procedural by requests to the interpreter: a function of the C interface. It is
+/// destroyed when it has done so, or when it is known that nobody sees it.
+class GeometryMaker {
+public:
+  virtual ~GeometryMaker() = default;
+  /// `detail`: pixels the bound covers.
+  virtual void make(float detail) = 0;
+};
+
 struct Procedural {
   std::string type;
   std::vector<std::string> arguments;
+  std::shared_ptr<GeometryMaker> maker; ///< where there is no type
   Box bound; ///< object space
   std::shared_ptr<Attributes> attributes;
   Matrix4 object_to_camera; ///< when the shutter opens
