@@ -59,6 +59,8 @@ public:
   size_t most_replayed = 100'000'000;
   /// Whether RunProgram may run what a scene names.
   bool allow_programs = false;
+  /// Whether it may run what requests name that do not come from a file: those of a C program.
+  bool allow_own_programs = false;
   ProgramLimits program_limits;
   /// The only folders from which DynamicLoad loads plug-ins: those the user named, never a scene's.
   std::vector<std::string> plug_in_folders;
@@ -289,9 +291,10 @@ private:
   };
   std::map<std::string, Content> contents_;
   Scene scene_;
+  /// By name; null: it failed. What procedurals hold of a plug-in is gone before the plug-in is.
+  std::map<std::string, std::shared_ptr<PlugIn>> plug_ins_;
   std::vector<Procedural> procedurals_;                      ///< of the world block
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
-  std::map<std::string, std::shared_ptr<PlugIn>> plug_ins_;  ///< by name; null: it failed
   int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
   bool in_world_ = false;
   int skip_depth_ = 0;   ///< > 0: in a branch that is not taken, so many conditions deep

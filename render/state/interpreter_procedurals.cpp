@@ -96,6 +96,7 @@ Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<cons
   p.motion = motion_;
   p.folder = folder_;
   p.depth = procedural_depth_ + 1;
+  p.may_run = allow_programs || (allow_own_programs && depth_ == 0);
   p.where = call.where;
   return &p;
 }
@@ -200,7 +201,7 @@ void Interpreter::run_program(const Procedural& p, float area) {
 }
 
 slvm::Result<std::unique_ptr<Program>> Interpreter::start_program(const Procedural& p) {
-  if (!allow_programs) return slvm::Error{"scenes may run programs only with --allow-programs"};
+  if (!p.may_run) return slvm::Error{"scenes may run programs only with --allow-programs"};
   std::vector<std::string> command;
   std::istringstream words(p.arguments[0]);
   for (std::string word; words >> word;)

@@ -32,6 +32,7 @@ struct Procedural {
   MotionMatrices motion;    ///< when it moves
   std::string folder;       ///< of the file it stands in
   int depth = 0;            ///< procedurals it came from
+  bool may_run = false;     ///< programs
   slvm::SourceRange where;
 };
 

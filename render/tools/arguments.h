@@ -22,6 +22,7 @@ struct Arguments {
   std::string directory;
   std::vector<std::string> shader_path, archive_path;
   std::vector<std::string> procedural_path;
+  std::vector<std::string> plug_in_folders; ///< those of it the user gave
   bool allow_programs = false;
   double program_seconds = 60;
   bool statistics = false;

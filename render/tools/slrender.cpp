@@ -1,8 +1,9 @@
 // slrender: reads RIB files and renders every world block in them.
 #include "render/renderer.h"
+#include "render/ri/plug_in_calls.h"
+#include "render/setup/compiling_loader.h"
 #include "render/statistics.h"
 #include "render/tools/arguments.h"
-#include "render/tools/compiling_loader.h"
 
 #include <fmt/format.h>
 
@@ -116,8 +117,11 @@ int run(const Arguments& arguments) {
   settings.threads = arguments.threads;
   settings.allow_programs = arguments.allow_programs;
   settings.program_seconds = arguments.program_seconds;
-  settings.shader_loader = render::tools::make_compiling_loader(
-      [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
+  settings.plug_in_folders = arguments.plug_in_folders;
+  render::ri::PlugInCalls plug_in_calls;
+  settings.around_plug_in = plug_in_calls.around();
+  settings.shader_loader = render::setup::make_compiling_loader(
+      "slrender", [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
   settings.flush_messages = [&] { messages.flush(); };
   settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
@@ -129,6 +133,7 @@ int run(const Arguments& arguments) {
   if (progress.wanted()) settings.progress = [&](double fraction) { progress.show(fraction); };
 
   render::Renderer renderer(messages.sources, messages.diagnostics, settings);
+  plug_in_calls.attach(renderer, messages.diagnostics);
   renderer.set_standard_path("shader", arguments.shader_path);
   renderer.set_standard_path("archive", arguments.archive_path);
   renderer.set_standard_path("procedural", arguments.procedural_path);

@@ -6,11 +6,13 @@
 #include "render/shading/shader_loader.h"
 
 #include <functional>
+#include <string>
 #include <string_view>
 
-namespace render::tools {
+namespace render::setup {
 
-/// `show` gets warnings and the compiler's messages, ready to be printed.
-ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show);
+/// `show` gets warnings and the compiler's messages, ready to be printed; `program` is what the former begin
+/// with.
+ShaderLoader make_compiling_loader(std::string program, std::function<void(std::string_view)> show);
 
-} // namespace render::tools
+} // namespace render::setup

@@ -1,8 +1,8 @@
 // Compiling shaders on the fly.
-#include "render/tools/compiling_loader.h"
+#include "render/setup/compiling_loader.h"
 
 #include "render/state/search_path.h"
-#include "render/tools/places.h"
+#include "render/setup/places.h"
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
@@ -15,13 +15,14 @@
 #include <memory>
 #include <span>
 
-namespace render::tools {
+namespace render::setup {
 
 namespace {
 
 class CompilingLoader {
 public:
-  explicit CompilingLoader(std::function<void(std::string_view)> show) : show_(std::move(show)) {}
+  CompilingLoader(std::string program, std::function<void(std::string_view)> show)
+      : program_(std::move(program)), show_(std::move(show)) {}
 
   slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path);
 
@@ -29,6 +30,7 @@ private:
   slvm::Result<std::string> compile(const std::string& file, const std::string& name,
                                     const std::vector<std::string>& path);
 
+  std::string program_;
   std::function<void(std::string_view)> show_;
   // Made when the first source is met: most runs have compiled shaders only.
   std::unique_ptr<slc::Compiler> compiler_;
@@ -46,13 +48,13 @@ slvm::Result<std::string> CompilingLoader::load(const std::string& name,
       // Often it is of another renderer, and its source beside it.
       auto source = as_it_is ? std::nullopt : find_file(name + ".sl", path);
       if (!source) return bytes; // whoever loads it says what is wrong
-      show_(fmt::format("slrender: warning: {}: {}; {} is compiled instead\n", *compiled, program.error(),
+      show_(fmt::format("{}: warning: {}: {}; {} is compiled instead\n", program_, *compiled, program.error(),
                         *source));
       return compile(*source, name, path);
     }
     std::string warning = slvm::stale_warning(*program, *compiled, !as_it_is);
     if (warning.empty()) return bytes;
-    show_(fmt::format("slrender: warning: {}\n", warning));
+    show_(fmt::format("{}: warning: {}\n", program_, warning));
     if (as_it_is) return bytes;
     return compile(slvm::find_source(*program, *compiled, program->source_name), name, path);
   }
@@ -92,11 +94,11 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
 
 } // namespace
 
-ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show) {
-  auto loader = std::make_shared<CompilingLoader>(std::move(show));
+ShaderLoader make_compiling_loader(std::string program, std::function<void(std::string_view)> show) {
+  auto loader = std::make_shared<CompilingLoader>(std::move(program), std::move(show));
   return [loader](const std::string& name, const std::vector<std::string>& path) {
     return loader->load(name, path);
   };
 }
 
-} // namespace render::tools
+} // namespace render::setup
