@@ -122,7 +122,7 @@ void set_rib_option_outside(const ParameterList& list) {
 }
 
 bool Context::parameters(CallBuilder& builder, const ParameterList& list) {
-  std::string name(builder.call().info().name);
+  std::string name = fmt::format("Ri{}", builder.call().info().name);
   builder.params(list, tracker_, [&](const CallProblem& p) { error(name, p.kind, p.text); });
   if (builder.problem().text.empty()) return true;
   error(name, builder.problem().kind, builder.problem().text);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace render {
 
@@ -62,6 +63,8 @@ void RibWriter::request(const RequestCall& call) {
   header(false);
   version(call.id == RequestId::kversion);
   if (closes(call.id) || is_branch(call.id)) depth_ = std::max(depth_ - 1, 0);
+  // The end of content that is no RIB is looked for as text.
+  bool binary = std::exchange(format_.binary, format_.binary && data_name_.empty());
   begin_line();
   name(info);
   for (size_t i = 0; i < info.arguments.size(); ++i)
@@ -70,6 +73,7 @@ void RibWriter::request(const RequestCall& call) {
     param(p);
   if (call.id == RequestId::kArchiveEnd && !call.has(0) && !data_name_.empty()) text(data_name_);
   data_name_.clear();
+  format_.binary = binary;
   end_line();
   if (opens(call.id) || is_branch(call.id)) ++depth_;
   if (call.data.empty()) return;
