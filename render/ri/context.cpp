@@ -61,7 +61,7 @@ std::pair<const char*, RtInt> procedural_type(RtProcSubdivFunc f) {
 }
 
 /// What Option "rib" and the environment ask for (RIFORMAT, RICOMPRESSION, RIPRECISION as in PRMan).
-RibOutput rib_output(const char* file) {
+RibOutput rib_output(const std::string& file) {
   RibOutput out = process().output;
   out.file = file;
   auto is = [](const char* variable, std::string_view value) {
@@ -246,7 +246,9 @@ RtVoid RiErrorHandler(RtErrorHandler handler) {
 
 RtVoid RiBegin(RtToken name) {
   using namespace render::ri;
-  std::string_view text = name ? name : "";
+  // An existing program becomes one that writes RIB by its environment.
+  const char* instead = std::getenv("ANEMONE_RIB");
+  std::string text = name && *name ? name : instead ? instead : "";
   if (current() && current()->is_running()) {
     current()->error("RiBegin", RiError::kNesting, "functions of a procedural cannot begin a renderer");
     return;
@@ -266,7 +268,7 @@ RtVoid RiBegin(RtToken name) {
       (*slot)->run(where, functions);
     });
   else
-    backend = std::make_unique<RibBackend>(rib_output(name));
+    backend = std::make_unique<RibBackend>(rib_output(text));
   auto report = [slot](RiError kind, RtInt severity, const std::string& message) {
     call_handler(*slot ? (*slot)->handler : process().handler, kind, severity, message);
   };

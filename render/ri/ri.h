@@ -2,7 +2,8 @@
 // Anemone may use. PUBLIC. For C (C99 and later; older programs compile as well) and C++; docs/c-interface.md
 // shows how programs are built.
 //
-//   RiBegin(RI_NULL) renders in this process, RiBegin("scene.rib") writes a RIB file.
+//   RiBegin(RI_NULL) renders in this process, or, where the environment has ANEMONE_RIB, writes the file named
+//   there. RiBegin("scene.rib") writes a RIB file, RiBegin("-") RIB to standard output.
 //
 // Conventions. Points and vectors are three RtFloat, matrices four rows of four that multiply row vectors from
 // the right, angles degrees, colours three components. A parameter list is pairs of a token and a pointer to
@@ -25,6 +26,12 @@
 
 #ifdef __cplusplus
 extern "C" {
+#endif
+
+#ifdef __GNUC__
+#define PRMANEXPORT __attribute__((visibility("default"))) // how plug-ins mark what they offer
+#else
+#define PRMANEXPORT
 #endif
 
 // Types

@@ -22,8 +22,10 @@ std::string reason() {
 } // namespace
 
 slvm::Result<std::unique_ptr<RibFile>> RibFile::create(const std::string& name, bool gzip) {
-  std::string temporary = fmt::format("{}.{}.part", name, ::getpid());
-  gzFile stream = gzopen(temporary.c_str(), gzip ? "wb" : "wbT");
+  const char* mode = gzip ? "wb" : "wbT";
+  bool standard = name == "-";
+  std::string temporary = standard ? "" : fmt::format("{}.{}.part", name, ::getpid());
+  gzFile stream = standard ? gzdopen(::dup(STDOUT_FILENO), mode) : gzopen(temporary.c_str(), mode);
   if (!stream) return slvm::Error{fmt::format("cannot write \"{}\": {}", name, reason())};
   return std::unique_ptr<RibFile>(new RibFile(name, std::move(temporary), stream));
 }
@@ -32,7 +34,7 @@ RibFile::~RibFile() {
   if (!stream_) return;
   gzclose(static_cast<gzFile>(stream_));
   std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
 }
 
 void RibFile::write(std::string_view text) {
@@ -50,7 +52,7 @@ std::string RibFile::finish() {
   std::string why;
   if (failed_ || !closed)
     why = reason();
-  else
+  else if (!temporary_.empty())
     std::filesystem::rename(temporary_, name_, error);
   if (error) why = error.message();
   if (why.empty()) return {};

@@ -11,7 +11,8 @@ namespace render {
 
 class RibFile {
 public:
-  /// `gzip`: compressed. The error says why the file cannot be written.
+  /// `gzip`: compressed. The name "-" stands for standard output. The error says why the file cannot be
+  /// written.
   static slvm::Result<std::unique_ptr<RibFile>> create(const std::string& name, bool gzip);
   /// Without finish() nothing is left of it.
   ~RibFile();

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <dlfcn.h>
 #include <fstream>
 #include <iterator>
@@ -514,6 +515,19 @@ TEST_F(RiRequests, files_may_be_binary_and_compressed) {
   EXPECT_EQ(text, std::string("\314") + code + "\225Sides\246" + code + "\200\001\n");
   EXPECT_EQ(parse_calls(text).calls.size(), 1u);
   EXPECT_THAT(told(), IsEmpty());
+}
+
+TEST_F(RiRequests, a_program_can_be_made_to_write) {
+  ::setenv("ANEMONE_RIB", (folder_ / "t.rib").c_str(), 1);
+  RiBegin(RI_NULL);
+  ::unsetenv("ANEMONE_RIB");
+  RiSides(1);
+  EXPECT_EQ(end_file(), "Sides 1\n");
+  ::testing::internal::CaptureStdout();
+  RiBegin("-");
+  RiSides(2);
+  RiEnd();
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "##RenderMan RIB\nversion 3.04\nSides 2\n");
 }
 
 TEST_F(RiRequests, error_handlers_are_written_when_they_have_names) {
