@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <map>
+#include <mutex>
 #include <vector>
 
 namespace render::ri {
@@ -21,6 +22,8 @@ struct Process {
   Context* current = nullptr;
   RtErrorHandler handler = RiErrorPrint; ///< of contexts that begin
   RibOutput output;                      ///< from Option "rib" before RiBegin
+  /// Held while functions of the program run, or of plug-ins: they come from the threads that render.
+  std::recursive_mutex functions;
 };
 
 /// Never destroyed: an error handler may end the program in the middle of a request.
@@ -35,16 +38,20 @@ public:
   FunctionGeometry(Context& context, slvm::SourceRange where, RtPointer data, RtProcSubdivFunc subdivide,
                    RtProcFreeFunc free)
       : context_(context), where_(where), data_(data), subdivide_(subdivide), free_(free) {}
-  ~FunctionGeometry() override {
-    if (free_) free_(data_);
-  }
+  ~FunctionGeometry() override { release(); }
   FunctionGeometry(const FunctionGeometry&) = delete;
   FunctionGeometry& operator=(const FunctionGeometry&) = delete;
   void make(float detail) override {
     context_.run(where_, [&] { subdivide_(data_, detail); });
+    release();
   }
 
 private:
+  void release() {
+    std::scoped_lock lock(process().functions);
+    if (auto free = std::exchange(free_, nullptr)) free(data_);
+  }
+
   Context& context_;
   slvm::SourceRange where_;
   RtPointer data_;
@@ -212,6 +219,7 @@ bool Context::transform_points(RtToken from, RtToken to, RtInt n, RtPoint points
 }
 
 void Context::run(slvm::SourceRange where, const std::function<void()>& functions) {
+  std::scoped_lock lock(process().functions);
   Context* outer = set_current(this);
   SizeTracker tracker = tracker_;
   backend_->update(tracker_);

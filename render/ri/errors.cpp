@@ -22,12 +22,13 @@ RtVoid RiErrorPrint(RtInt code, RtInt severity, char* message) {
   print(code, severity, message);
 }
 
-/// Warnings are no reason to end.
+/// Warnings are no reason to end. Threads may be rendering: nothing is taken away from them.
 RtVoid RiErrorAbort(RtInt code, RtInt severity, char* message) {
   print(code, severity, message);
   if (severity < RIE_ERROR) return;
   render::ri::abandon_files();
-  std::exit(EXIT_FAILURE);
+  std::fflush(nullptr);
+  std::_Exit(EXIT_FAILURE);
 }
 
 } // extern "C"

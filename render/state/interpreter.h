@@ -68,6 +68,9 @@ public:
   std::function<void(slvm::SourceRange procedural, const std::function<void()>& functions)> around_plug_in;
   /// Comments of files read from now on, without the first #.
   std::function<void(std::string_view)> on_comment;
+  /// What a procedural of the scene holds, given the pixels its bound covers. Only from within render_world;
+  /// from any thread, one call at a time.
+  SceneContent make_content(const Procedural&, float area);
   /// Directories "@" stands for in search paths, by kind of path.
   std::map<std::string, std::vector<std::string>> standard_paths;
 
@@ -260,7 +263,6 @@ private:
 
   // procedurals
   void procedural(const RequestCall&);
-  void run_procedurals();
   void run(const Procedural&, float area);
   void run_program(const Procedural&, float area);
   void run_plug_in(const Procedural&, float area);
@@ -293,7 +295,7 @@ private:
   Scene scene_;
   /// By name; null: it failed. What procedurals hold of a plug-in is gone before the plug-in is.
   std::map<std::string, std::shared_ptr<PlugIn>> plug_ins_;
-  std::vector<Procedural> procedurals_;                      ///< of the world block
+  size_t procedurals_ = 0;                                   ///< seen so far in the world block
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
   int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
   bool in_world_ = false;

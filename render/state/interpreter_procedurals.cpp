@@ -1,4 +1,4 @@
-// Procedurals: kept when they are met, carried out at the end of the world, those the camera sees.
+// Procedurals: kept when they are met, carried out when the renderer comes to them.
 #include "render/rib/parser.h"
 #include "render/state/interpreter.h"
 #include "render/state/search_path.h"
@@ -76,7 +76,7 @@ void Interpreter::procedural(std::span<const float, 6> bound, std::shared_ptr<Ge
 /// A new procedural with the state of the moment. Null, with a message: it cannot be kept.
 Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<const float> b,
                                          slvm::SourceRange where) {
-  if (procedurals_.size() == kMostProcedurals) {
+  if (procedurals_ == kMostProcedurals) {
     error(call, fmt::format("more than {} procedurals in a frame; the request is skipped", kMostProcedurals),
           RiError::kLimit);
     return nullptr;
@@ -89,34 +89,32 @@ Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<cons
     error_at(where, call, "the bound is empty; expected xmin xmax ymin ymax zmin zmax", RiError::kRange);
     return nullptr;
   }
-  Procedural& p = procedurals_.emplace_back();
+  ++procedurals_;
+  Procedural& p = scene_.procedurals.emplace_back();
   p.bound = bound;
   p.attributes = attributes_;
   p.object_to_camera = ctm_;
   p.motion = motion_;
   p.folder = folder_;
+  p.displacement_bound = displacement_bound_of(*attributes_, ctm_);
   p.depth = procedural_depth_ + 1;
   p.may_run = allow_programs || (allow_own_programs && depth_ == 0);
   p.where = call.where;
   return &p;
 }
 
-/// Called between the closing of the world and its rendering. Those found on the way join the row.
-void Interpreter::run_procedurals() {
-  Camera camera(scene_.options);
-  for (size_t i = 0; i < procedurals_.size() && !stopped_; ++i) {
-    Procedural p = std::move(procedurals_[i]);
-    Box box = transform_box(p.object_to_camera, p.bound);
-    box.grow(displacement_bound_of(*p.attributes, p.object_to_camera));
-    auto area = visible_area(camera, scene_.options, box);
-    if (!area) continue;
-    if (p.depth > kDeepest) {
-      report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
-      continue;
-    }
-    run(p, *area);
+SceneContent Interpreter::make_content(const Procedural& p, float area) {
+  if (stopped_) return {};
+  if (p.depth > kDeepest) {
+    report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
+    return {};
   }
-  procedurals_.clear();
+  auto spaces = spaces_;
+  run(p, area);
+  SceneContent content{std::exchange(scene_.primitives, {}), std::exchange(scene_.procedurals, {}), {}};
+  for (const auto& [name, space] : spaces_)
+    if (auto it = spaces.find(name); it == spaces.end() || it->second != space) content.spaces[name] = space;
+  return content;
 }
 
 void Interpreter::report(const Procedural& p, std::string_view text) {
@@ -134,7 +132,8 @@ void Interpreter::run(const Procedural& p, float area) {
   std::string folder = std::exchange(folder_, p.folder);
   std::vector<Block> blocks = std::exchange(blocks_, {});
   procedural_depth_ = p.depth;
-  ++depth_;
+  bool file = !p.maker; // a function of a program is as good as the program
+  if (file) ++depth_;
   if (p.maker)
     p.maker->make(area);
   else if (p.type == "DelayedReadArchive")
@@ -143,7 +142,7 @@ void Interpreter::run(const Procedural& p, float area) {
     run_plug_in(p, area);
   else
     run_program(p, area);
-  --depth_;
+  if (file) --depth_;
   procedural_depth_ = 0;
   if (recording_.depth > 0 || !blocks_.empty()) report(p, "a block is left open at its end");
   recording_ = {};
