@@ -1,6 +1,6 @@
 // How many values the parameters of a request hold: the sizes of the storage classes uniform, varying, vertex
-// and facevarying for each primitive (RISpec 3.2, sections 5.1 to 5.6). Read by the interpreter to check lists
-// and by the C interface to know how far its arrays reach.
+// and facevarying for each primitive (RISpec 3.2, sections 5.1 to 5.6). Read by the interpreter to check
+// lists and by the C interface to know how far its arrays reach.
 #pragma once
 
 #include "render/rib/request.h"

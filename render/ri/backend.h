@@ -1,10 +1,10 @@
 // What a context of the C interface does with its requests: renders them, or writes them to a file.
 #pragma once
 
-#include "render/rib/ri_error.h"
-#include "render/rib/ri_target.h"
 #include "render/ri/ri.h"
 #include "render/ri/size_tracker.h"
+#include "render/rib/ri_error.h"
+#include "render/rib/ri_target.h"
 #include "render/state/math.h"
 #include "render/state/procedural.h"
 

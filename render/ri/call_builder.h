@@ -2,9 +2,9 @@
 // be is remembered, and said by problem().
 #pragma once
 
-#include "render/rib/ri_error.h"
 #include "render/ri/parameters.h"
 #include "render/ri/size_tracker.h"
+#include "render/rib/ri_error.h"
 
 #include <optional>
 #include <span>

@@ -109,7 +109,8 @@ void report_outside(RiError kind, const std::string& text) {
 }
 
 Context* current(const char* function) {
-  if (!process().current) report_outside(RiError::kNotStarted, fmt::format("{}: RiBegin is missing", function));
+  if (!process().current)
+    report_outside(RiError::kNotStarted, fmt::format("{}: RiBegin is missing", function));
   return process().current;
 }
 
@@ -122,9 +123,10 @@ Context::Context(std::unique_ptr<Backend> backend, Report report)
 void set_rib_option_outside(const ParameterList& list) {
   CallBuilder builder(RequestId::kOption, {});
   builder.add("rib");
-  builder.params(list, SizeTracker(), [](const CallProblem& p) { report_outside(p.kind, "Option: " + p.text); });
-  std::string problem =
-      builder.problem().text.empty() ? set_rib_option(builder.call(), process().output) : builder.problem().text;
+  builder.params(list, SizeTracker(),
+                 [](const CallProblem& p) { report_outside(p.kind, "Option: " + p.text); });
+  std::string problem = builder.problem().text.empty() ? set_rib_option(builder.call(), process().output)
+                                                       : builder.problem().text;
   if (!problem.empty()) report_outside(RiError::kRange, "Option: " + problem);
 }
 
@@ -175,7 +177,8 @@ void Context::archive_record(std::string_view type, const std::string& text) {
   }
 }
 
-void Context::procedural(RtPointer data, RtBound bound, RtProcSubdivFunc subdivfunc, RtProcFreeFunc freefunc) {
+void Context::procedural(RtPointer data, RtBound bound, RtProcSubdivFunc subdivfunc,
+                         RtProcFreeFunc freefunc) {
   if (!bound || !subdivfunc) {
     error("RiProcedural", RiError::kMissingData,
           bound ? "'subdivfunc' is a null pointer" : "'bound' is a null pointer");
@@ -239,8 +242,8 @@ void Context::finish() {
 } // namespace render::ri
 
 using render::RiError;
-using render::ri::Context;
 using render::ri::call_handler;
+using render::ri::Context;
 using render::ri::process;
 
 extern "C" {

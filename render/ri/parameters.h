@@ -19,9 +19,7 @@ struct ParameterList {
 class CollectedParameters {
 public:
   explicit CollectedParameters(va_list arguments);
-  ParameterList list() const {
-    return {static_cast<RtInt>(tokens_.size()), tokens_.data(), values_.data()};
-  }
+  ParameterList list() const { return {static_cast<RtInt>(tokens_.size()), tokens_.data(), values_.data()}; }
 
 private:
   std::vector<RtToken> tokens_;

@@ -75,8 +75,8 @@ struct Owned {
     diagnostics.error_limit = 0;
     renderer.interpreter().allow_own_programs = true;
     namespace places = render::setup;
-    renderer.set_standard_path(
-        "shader", places::search_path("", "ANEMONE_SHADERS", places::standard_shader_folders()));
+    renderer.set_standard_path("shader",
+                               places::search_path("", "ANEMONE_SHADERS", places::standard_shader_folders()));
     renderer.set_standard_path("archive", places::search_path("", "ANEMONE_ARCHIVES", {}));
     renderer.set_standard_path("procedural", places::search_path("", "ANEMONE_PROCEDURALS", {}));
   }
@@ -137,7 +137,8 @@ void RenderBackend::deliver() {
   if (kind == RiError::kNone) kind = RiError::kConsistency;
   for (const slvm::Diagnostic& d : list) {
     bool warning = d.severity != slvm::Severity::kError;
-    RiError of_warning = d.warning_name == "rib-unsupported" ? RiError::kUnimplemented : RiError::kConsistency;
+    RiError of_warning =
+        d.warning_name == "rib-unsupported" ? RiError::kUnimplemented : RiError::kConsistency;
     report(warning ? of_warning : kind, warning ? RIE_WARNING : RIE_ERROR, describe(d));
   }
 }

@@ -26,8 +26,8 @@ RI_PARAMETERS(Attribute, (RtToken name), name, name)
 RI_PLAIN(Color, (RtColor color), Floats{color, 3})
 RI_PLAIN(Opacity, (RtColor opacity), Floats{opacity, 3})
 RI_PLAIN(TextureCoordinates,
-         (RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3, RtFloat s4, RtFloat t4), s1, t1, s2,
-         t2, s3, t3, s4, t4)
+         (RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3, RtFloat s4, RtFloat t4), s1,
+         t1, s2, t2, s3, t3, s4, t4)
 RI_PAIR(RtLightHandle, LightSource, (RtToken name), name,
         light(context, render::RequestId::kLightSource, list, name))
 RI_PAIR(RtLightHandle, AreaLightSource, (RtToken name), name,
@@ -59,11 +59,11 @@ RI_PLAIN(GeometricApproximation, (RtToken type, RtFloat value), type, value)
 RI_PLAIN(Orientation, (RtToken orientation), orientation)
 RI_PLAIN(ReverseOrientation, (void))
 RI_PLAIN(Sides, (RtInt sides), sides)
-RI_PLAIN(Basis, (RtBasis ubasis, RtInt ustep, RtBasis vbasis, RtInt vstep), Basis{ubasis}, ustep, Basis{vbasis},
-         vstep)
+RI_PLAIN(Basis, (RtBasis ubasis, RtInt ustep, RtBasis vbasis, RtInt vstep), Basis{ubasis}, ustep,
+         Basis{vbasis}, vstep)
 RI_PLAIN(TrimCurve,
-         (RtInt nloops, RtInt ncurves[], RtInt order[], RtFloat knot[], RtFloat min[], RtFloat max[], RtInt n[],
-          RtFloat u[], RtFloat v[], RtFloat w[]),
+         (RtInt nloops, RtInt ncurves[], RtInt order[], RtFloat knot[], RtFloat min[], RtFloat max[],
+          RtInt n[], RtFloat u[], RtFloat v[], RtFloat w[]),
          Ints{ncurves, nloops}, Ints{order, sum(ncurves, nloops)},
          Floats{knot, sum(n, sum(ncurves, nloops)) + sum(order, sum(ncurves, nloops))},
          Floats{min, sum(ncurves, nloops)}, Floats{max, sum(ncurves, nloops)}, Ints{n, sum(ncurves, nloops)},
@@ -77,8 +77,8 @@ RI_PLAIN(Perspective, (RtFloat fov), fov)
 RI_PLAIN(Translate, (RtFloat dx, RtFloat dy, RtFloat dz), dx, dy, dz)
 RI_PLAIN(Rotate, (RtFloat angle, RtFloat dx, RtFloat dy, RtFloat dz), angle, dx, dy, dz)
 RI_PLAIN(Scale, (RtFloat sx, RtFloat sy, RtFloat sz), sx, sy, sz)
-RI_PLAIN(Skew, (RtFloat angle, RtFloat dx1, RtFloat dy1, RtFloat dz1, RtFloat dx2, RtFloat dy2, RtFloat dz2), angle,
-         dx1, dy1, dz1, dx2, dy2, dz2)
+RI_PLAIN(Skew, (RtFloat angle, RtFloat dx1, RtFloat dy1, RtFloat dz1, RtFloat dx2, RtFloat dy2, RtFloat dz2),
+         angle, dx1, dy1, dz1, dx2, dy2, dz2)
 RI_PLAIN(CoordinateSystem, (RtToken name), name)
 RI_PLAIN(ScopedCoordinateSystem, (RtToken name), name)
 RI_PLAIN(CoordSysTransform, (RtToken name), name)

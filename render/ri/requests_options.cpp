@@ -16,13 +16,15 @@ RI_PLAIN(ScreenWindow, (RtFloat left, RtFloat right, RtFloat bottom, RtFloat top
 RI_PLAIN(CropWindow, (RtFloat xmin, RtFloat xmax, RtFloat ymin, RtFloat ymax), xmin, xmax, ymin, ymax)
 RI_PARAMETERS(Projection, (RtToken name), name, Optional{name})
 RI_PLAIN(Clipping, (RtFloat near_, RtFloat far_), near_, far_)
-RI_PLAIN(ClippingPlane, (RtFloat x, RtFloat y, RtFloat z, RtFloat nx, RtFloat ny, RtFloat nz), x, y, z, nx, ny, nz)
+RI_PLAIN(ClippingPlane, (RtFloat x, RtFloat y, RtFloat z, RtFloat nx, RtFloat ny, RtFloat nz), x, y, z, nx,
+         ny, nz)
 RI_PLAIN(Shutter, (RtFloat open, RtFloat close), open, close)
 RI_PLAIN(PixelVariance, (RtFloat variance), variance)
 RI_PLAIN(PixelSamples, (RtFloat x, RtFloat y), x, y)
 RI_PLAIN(Exposure, (RtFloat gain, RtFloat gamma), gain, gamma)
 RI_PARAMETERS(Imager, (RtToken name), name, name)
-RI_PLAIN(Quantize, (RtToken type, RtInt one, RtInt min, RtInt max, RtFloat dither), type, one, min, max, dither)
+RI_PLAIN(Quantize, (RtToken type, RtInt one, RtInt min, RtInt max, RtFloat dither), type, one, min, max,
+         dither)
 RI_PARAMETERS(Display, (RtToken name, RtToken type, RtToken mode), mode, name, type, mode)
 RI_PARAMETERS(DisplayChannel, (RtToken name), name, name)
 RI_PARAMETERS(Hider, (RtToken type), type, type)
@@ -60,22 +62,23 @@ RtVoid RiOption(RtToken name, ...) {
 }
 
 RI_PARAMETERS(MakeTexture,
-              (RtToken image, RtToken texture, RtToken swrap, RtToken twrap, RtFilterFunc filter, RtFloat swidth,
-               RtFloat twidth),
+              (RtToken image, RtToken texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,
+               RtFloat swidth, RtFloat twidth),
               twidth, image, texture, swrap, twrap, Filter{filter}, swidth, twidth)
 RI_PARAMETERS(MakeBump,
               (RtToken image, RtToken bump, RtToken swrap, RtToken twrap, RtFilterFunc filter, RtFloat swidth,
                RtFloat twidth),
               twidth, image, bump, swrap, twrap, Filter{filter}, swidth, twidth)
 RI_PARAMETERS(MakeLatLongEnvironment,
-              (RtToken image, RtToken texture, RtFilterFunc filter, RtFloat swidth, RtFloat twidth), twidth, image,
-              texture, Filter{filter}, swidth, twidth)
+              (RtToken image, RtToken texture, RtFilterFunc filter, RtFloat swidth, RtFloat twidth), twidth,
+              image, texture, Filter{filter}, swidth, twidth)
 RI_PARAMETERS(MakeCubeFaceEnvironment,
-              (RtToken px, RtToken nx, RtToken py, RtToken ny, RtToken pz, RtToken nz, RtToken texture, RtFloat fov,
-               RtFilterFunc filter, RtFloat swidth, RtFloat twidth),
+              (RtToken px, RtToken nx, RtToken py, RtToken ny, RtToken pz, RtToken nz, RtToken texture,
+               RtFloat fov, RtFilterFunc filter, RtFloat swidth, RtFloat twidth),
               twidth, px, nx, py, ny, pz, nz, texture, fov, Filter{filter}, swidth, twidth)
 RI_PARAMETERS(MakeShadow, (RtToken zfile, RtToken shadow), shadow, zfile, shadow)
-RI_PARAMETERS(MakeOcclusion, (RtInt nfiles, RtString zfiles[], RtToken shadow), shadow, Texts{zfiles, nfiles}, shadow)
+RI_PARAMETERS(MakeOcclusion, (RtInt nfiles, RtString zfiles[], RtToken shadow), shadow, Texts{zfiles, nfiles},
+              shadow)
 RI_PARAMETERS(MakeBrickMap, (RtInt nclouds, RtString pointclouds[], RtToken brickmap), brickmap,
               Texts{pointclouds, nclouds}, brickmap)
 

@@ -1,16 +1,17 @@
-// The C binding of the RenderMan Interface, version 3.2, with the requests of later renderers that RIB files of
-// Anemone may use. PUBLIC. For C (C99 and later; older programs compile as well) and C++; docs/c-interface.md
-// shows how programs are built.
+// The C binding of the RenderMan Interface, version 3.2, with the requests of later renderers that RIB files
+// of Anemone may use. PUBLIC. For C (C99 and later; older programs compile as well) and C++;
+// docs/c-interface.md shows how programs are built.
 //
-//   RiBegin(RI_NULL) renders in this process, or, where the environment has ANEMONE_RIB, writes the file named
-//   there. RiBegin("scene.rib") writes a RIB file, RiBegin("-") RIB to standard output.
+//   RiBegin(RI_NULL) renders in this process, or, where the environment has ANEMONE_RIB, writes the file
+//   named there. RiBegin("scene.rib") writes a RIB file, RiBegin("-") RIB to standard output.
 //
-// Conventions. Points and vectors are three RtFloat, matrices four rows of four that multiply row vectors from
-// the right, angles degrees, colours three components. A parameter list is pairs of a token and a pointer to
-// its values, ended by RI_NULL; functions named ...V take its length and two arrays instead. How many values a
-// token has follows from its declaration (RiDeclare, or in the token: "uniform float Kd"; standard names need
-// none) and from the primitive: RISpec 3.2, section 5. "integer" values are RtInt, strings RtString, all others
-// RtFloat. Nothing that is handed over is kept: all is copied before a function returns.
+// Conventions. Points and vectors are three RtFloat, matrices four rows of four that multiply row vectors
+// from the right, angles degrees, colours three components. A parameter list is pairs of a token and a
+// pointer to its values, ended by RI_NULL; functions named ...V take its length and two arrays instead. How
+// many values a token has follows from its declaration (RiDeclare, or in the token: "uniform float Kd";
+// standard names need none) and from the primitive: RISpec 3.2, section 5. "integer" values are RtInt,
+// strings RtString, all others RtFloat. Nothing that is handed over is kept: all is copied before a function
+// returns.
 //
 // Errors go to the handler of RiErrorHandler, which is RiErrorPrint at first; the request in question is
 // skipped. Functions must not be called from two threads at once.
@@ -90,13 +91,13 @@ typedef RtVoid (*RtArchiveCallback)(RtToken type, char* format, ...);
 
 // Codes of errors
 #define RIE_NOERROR 0
-#define RIE_NOMEM 1       // out of memory
-#define RIE_SYSTEM 2      // the system refused something
-#define RIE_NOFILE 3      // a file does not exist
-#define RIE_BADFILE 4     // a file cannot be read or written
-#define RIE_VERSION 5     // a file of another version
-#define RIE_DISKFULL 6    // no room for output
-#define RIE_INCAPABLE 11  // an optional feature
+#define RIE_NOMEM 1      // out of memory
+#define RIE_SYSTEM 2     // the system refused something
+#define RIE_NOFILE 3     // a file does not exist
+#define RIE_BADFILE 4    // a file cannot be read or written
+#define RIE_VERSION 5    // a file of another version
+#define RIE_DISKFULL 6   // no room for output
+#define RIE_INCAPABLE 11 // an optional feature
 #define RIE_OPTIONAL RIE_INCAPABLE
 #define RIE_UNIMPLEMENT 12
 #define RIE_LIMIT 13
@@ -105,11 +106,11 @@ typedef RtVoid (*RtArchiveCallback)(RtToken type, char* format, ...);
 #define RIE_NESTING 24    // blocks that do not match
 #define RIE_NOTOPTIONS 25 // options inside a world
 #define RIE_NOTATTRIBS 26
-#define RIE_NOTPRIMS 27   // primitives outside a world
+#define RIE_NOTPRIMS 27 // primitives outside a world
 #define RIE_ILLSTATE 28
 #define RIE_BADMOTION 29
 #define RIE_BADSOLID 30
-#define RIE_BADTOKEN 41   // a name that is not known or not declared
+#define RIE_BADTOKEN 41 // a name that is not known or not declared
 #define RIE_RANGE 42
 #define RIE_CONSISTENCY 43
 #define RIE_BADHANDLE 44
@@ -134,7 +135,8 @@ extern RtToken RI_HIDDEN, RI_PAINT;
 extern RtToken RI_CONSTANT, RI_SMOOTH;
 extern RtToken RI_FLATNESS, RI_FOV;
 extern RtToken RI_AMBIENTLIGHT, RI_POINTLIGHT, RI_DISTANTLIGHT, RI_SPOTLIGHT;
-extern RtToken RI_INTENSITY, RI_LIGHTCOLOR, RI_FROM, RI_TO, RI_CONEANGLE, RI_CONEDELTAANGLE, RI_BEAMDISTRIBUTION;
+extern RtToken RI_INTENSITY, RI_LIGHTCOLOR, RI_FROM, RI_TO, RI_CONEANGLE, RI_CONEDELTAANGLE,
+    RI_BEAMDISTRIBUTION;
 extern RtToken RI_MATTE, RI_METAL, RI_SHINYMETAL, RI_PLASTIC, RI_PAINTEDPLASTIC;
 extern RtToken RI_KA, RI_KD, RI_KS, RI_KR, RI_ROUGHNESS, RI_TEXTURENAME, RI_SPECULARCOLOR;
 extern RtToken RI_DEPTHCUE, RI_FOG, RI_BUMPY;
@@ -232,8 +234,8 @@ RtVoid RiAttribute(RtToken name, ...);
 RtVoid RiAttributeV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
 RtVoid RiColor(RtColor color);
 RtVoid RiOpacity(RtColor opacity);
-RtVoid RiTextureCoordinates(RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3, RtFloat s4,
-                            RtFloat t4);
+RtVoid RiTextureCoordinates(RtFloat s1, RtFloat t1, RtFloat s2, RtFloat t2, RtFloat s3, RtFloat t3,
+                            RtFloat s4, RtFloat t4);
 RtLightHandle RiLightSource(RtToken name, ...);
 RtLightHandle RiLightSourceV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
 RtLightHandle RiAreaLightSource(RtToken name, ...);
@@ -286,7 +288,8 @@ RtVoid RiSphere(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, ..
 RtVoid RiSphereV(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, RtInt n, RtToken tokens[],
                  RtPointer values[]);
 RtVoid RiCone(RtFloat height, RtFloat radius, RtFloat thetamax, ...);
-RtVoid RiConeV(RtFloat height, RtFloat radius, RtFloat thetamax, RtInt n, RtToken tokens[], RtPointer values[]);
+RtVoid RiConeV(RtFloat height, RtFloat radius, RtFloat thetamax, RtInt n, RtToken tokens[],
+               RtPointer values[]);
 RtVoid RiCylinder(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, ...);
 RtVoid RiCylinderV(RtFloat radius, RtFloat zmin, RtFloat zmax, RtFloat thetamax, RtInt n, RtToken tokens[],
                    RtPointer values[]);
@@ -297,8 +300,10 @@ RtVoid RiParaboloid(RtFloat rmax, RtFloat zmin, RtFloat zmax, RtFloat thetamax, 
 RtVoid RiParaboloidV(RtFloat rmax, RtFloat zmin, RtFloat zmax, RtFloat thetamax, RtInt n, RtToken tokens[],
                      RtPointer values[]);
 RtVoid RiDisk(RtFloat height, RtFloat radius, RtFloat thetamax, ...);
-RtVoid RiDiskV(RtFloat height, RtFloat radius, RtFloat thetamax, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiTorus(RtFloat majorradius, RtFloat minorradius, RtFloat phimin, RtFloat phimax, RtFloat thetamax, ...);
+RtVoid RiDiskV(RtFloat height, RtFloat radius, RtFloat thetamax, RtInt n, RtToken tokens[],
+               RtPointer values[]);
+RtVoid RiTorus(RtFloat majorradius, RtFloat minorradius, RtFloat phimin, RtFloat phimax, RtFloat thetamax,
+               ...);
 RtVoid RiTorusV(RtFloat majorradius, RtFloat minorradius, RtFloat phimin, RtFloat phimax, RtFloat thetamax,
                 RtInt n, RtToken tokens[], RtPointer values[]);
 RtVoid RiPolygon(RtInt nvertices, ...);
@@ -349,7 +354,8 @@ RtVoid RiProcFree(RtPointer data); // free() of the C library
 
 // Archives, conditions
 RtVoid RiReadArchive(RtToken name, RtArchiveCallback callback, ...);
-RtVoid RiReadArchiveV(RtToken name, RtArchiveCallback callback, RtInt n, RtToken tokens[], RtPointer values[]);
+RtVoid RiReadArchiveV(RtToken name, RtArchiveCallback callback, RtInt n, RtToken tokens[],
+                      RtPointer values[]);
 RtArchiveHandle RiArchiveBegin(RtToken name, ...);
 RtArchiveHandle RiArchiveBeginV(RtToken name, RtInt n, RtToken tokens[], RtPointer values[]);
 RtVoid RiArchiveEnd(void);
@@ -371,8 +377,8 @@ RtVoid RiMakeTexture(RtToken image, RtToken texture, RtToken swrap, RtToken twra
                      RtFloat swidth, RtFloat twidth, ...);
 RtVoid RiMakeTextureV(RtToken image, RtToken texture, RtToken swrap, RtToken twrap, RtFilterFunc filter,
                       RtFloat swidth, RtFloat twidth, RtInt n, RtToken tokens[], RtPointer values[]);
-RtVoid RiMakeBump(RtToken image, RtToken bump, RtToken swrap, RtToken twrap, RtFilterFunc filter, RtFloat swidth,
-                  RtFloat twidth, ...);
+RtVoid RiMakeBump(RtToken image, RtToken bump, RtToken swrap, RtToken twrap, RtFilterFunc filter,
+                  RtFloat swidth, RtFloat twidth, ...);
 RtVoid RiMakeBumpV(RtToken image, RtToken bump, RtToken swrap, RtToken twrap, RtFilterFunc filter,
                    RtFloat swidth, RtFloat twidth, RtInt n, RtToken tokens[], RtPointer values[]);
 RtVoid RiMakeLatLongEnvironment(RtToken image, RtToken texture, RtFilterFunc filter, RtFloat swidth,

@@ -90,8 +90,7 @@ void RibBackend::request(const RequestCall& call) {
   if (call.id == RequestId::kOption && call.text(0) == "rib") {
     std::string problem = writer_ ? "the file has been begun; \"rib\" belongs before all other requests"
                                   : set_rib_option(call, output_);
-    if (!problem.empty())
-      error(call, writer_ ? RiError::kIllegalState : RiError::kRange, problem);
+    if (!problem.empty()) error(call, writer_ ? RiError::kIllegalState : RiError::kRange, problem);
     return;
   }
   if (!legal(call) || !nests(call) || !open()) return;

@@ -1,9 +1,9 @@
 // A context that writes RIB.
 #pragma once
 
+#include "render/ri/backend.h"
 #include "render/rib/rib_file.h"
 #include "render/rib/writer.h"
-#include "render/ri/backend.h"
 
 #include <vector>
 

@@ -8,7 +8,7 @@
 namespace render::ri {
 
 struct StandardParameter {
-  std::string_view category;    ///< "Option limits", "Attribute trace" or a request: "Display"
+  std::string_view category; ///< "Option limits", "Attribute trace" or a request: "Display"
   std::string_view name;
   std::string_view declaration; ///< as for RiDeclare
 };

@@ -175,6 +175,10 @@ void RibWriter::real(float value) {
 }
 
 void RibWriter::whole(float value) {
+  if (!std::isfinite(value)) { // an integer too long for a float
+    real(value);
+    return;
+  }
   constexpr float kLargest = 1 << 24;
   bool exact = std::abs(value) <= kLargest && !(value == 0 && std::signbit(value));
   if (format_.binary && exact) {

@@ -1,8 +1,8 @@
 // Compiling shaders on the fly.
 #include "render/setup/compiling_loader.h"
 
-#include "render/state/search_path.h"
 #include "render/setup/places.h"
+#include "render/state/search_path.h"
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"

@@ -171,8 +171,8 @@ void Interpreter::archive_begin(const RequestCall& call) {
 void Interpreter::recording_end(const RequestCall& call) {
   if (recording_.depth == 0) {
     bool object = call.id == RequestId::kObjectEnd;
-    error(call, fmt::format("there is no open {}; the request is skipped",
-                            object ? "ObjectBegin" : "ArchiveBegin"),
+    error(call,
+          fmt::format("there is no open {}; the request is skipped", object ? "ObjectBegin" : "ArchiveBegin"),
           RiError::kNesting);
     return;
   }

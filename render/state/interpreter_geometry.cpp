@@ -51,7 +51,8 @@ GeometryResult make_quadric(const RequestCall& c) {
 std::optional<ClassSizes> Interpreter::sizes_of(const RequestCall& call) {
   SizesOfRequest r = class_sizes(call, {attributes_->ubasis.step, attributes_->vbasis.step});
   if (r.ok()) return r.sizes;
-  error_at(r.argument < 0 ? call.where : call.arguments[static_cast<size_t>(r.argument)].where, call, r.error);
+  error_at(r.argument < 0 ? call.where : call.arguments[static_cast<size_t>(r.argument)].where, call,
+           r.error);
   return std::nullopt;
 }
 

@@ -111,8 +111,9 @@ void Interpreter::motion_shape(const RequestCall& call, float time) {
     block.primitives = made;
     block.shapes.resize(made);
   } else if (made != block.primitives) {
-    error(call, fmt::format("this makes {} surfaces, at the first time of the motion block it was {}", made,
-                            block.primitives),
+    error(call,
+          fmt::format("this makes {} surfaces, at the first time of the motion block it was {}", made,
+                      block.primitives),
           RiError::kBadMotion);
     scene_.primitives.resize(before);
     return;

@@ -44,7 +44,7 @@ void Interpreter::procedural(const RequestCall& call) {
   if (call.texts(1).size() != wanted) {
     error_at(call.arguments[1].where, call,
              fmt::format("\"{}\" takes {}, found {}", type,
-                         archive ? "the name of a file"
+                         archive   ? "the name of a file"
                          : program ? "a program and the data for it"
                                    : "a plug-in and its parameters",
                          call.texts(1).size()));
@@ -63,7 +63,8 @@ void Interpreter::procedural(std::span<const float, 6> bound, std::shared_ptr<Ge
   call.where = where;
   if (stopped(call) || skip_depth_ > 0 || !legal(call)) return;
   if (recording() || in_motion_) {
-    error(call, "a function cannot be kept in an object, an archive or a motion block", RiError::kIllegalState);
+    error(call, "a function cannot be kept in an object, an archive or a motion block",
+          RiError::kIllegalState);
     return;
   }
   Procedural* p = keep_procedural(call, bound, where);

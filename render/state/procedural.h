@@ -13,8 +13,8 @@
 
 namespace render {
 
-/// Makes the geometry of a procedural by requests to the interpreter: a function of the C interface. It may be
-/// destroyed in any thread, when nothing is to be made any more.
+/// Makes the geometry of a procedural by requests to the interpreter: a function of the C interface. It may
+/// be destroyed in any thread, when nothing is to be made any more.
 class GeometryMaker {
 public:
   virtual ~GeometryMaker() = default;
@@ -26,7 +26,7 @@ struct Procedural {
   std::string type;
   std::vector<std::string> arguments;
   std::shared_ptr<GeometryMaker> maker; ///< where there is no type
-  Box bound; ///< object space
+  Box bound;                            ///< object space
   std::shared_ptr<Attributes> attributes;
   Matrix4 object_to_camera;     ///< when the shutter opens
   MotionMatrices motion;        ///< when it moves

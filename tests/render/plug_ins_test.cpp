@@ -16,9 +16,10 @@ protected:
     std::filesystem::copy_file(std::string(PLUG_INS) + "/" + which + ".so", directory_ / path);
   }
   void scene(const std::string& procedurals, const std::string& options = "") {
-    file("a.rib", "Display \"a.exr\" \"openexr\" \"rgba\" Format 100 100 1 PixelFilter \"box\" 1 1\n" + options +
-                      "Projection \"perspective\" \"fov\" [90] Translate 0 0 4 WorldBegin Surface \"constant\"\n" +
-                      procedurals + "\nWorldEnd");
+    file("a.rib",
+         "Display \"a.exr\" \"openexr\" \"rgba\" Format 100 100 1 PixelFilter \"box\" 1 1\n" + options +
+             "Projection \"perspective\" \"fov\" [90] Translate 0 0 4 WorldBegin Surface \"constant\"\n" +
+             procedurals + "\nWorldEnd");
   }
 };
 
@@ -55,9 +56,10 @@ TEST_F(PlugIns, come_only_from_folders_the_user_names) {
   scene(kBall, "Option \"searchpath\" \"string procedural\" [\"plug\"]\n");
   Outcome refused = run("--allow-programs a.rib");
   EXPECT_EQ(refused.status, 1);
-  EXPECT_THAT(refused.text, HasSubstr("a.rib:4:1: error: Procedural: DynamicLoad \"balls.so\": plug-ins are loaded "
-                                      "only from folders named with --procedurals (or in ANEMONE_PROCEDURALS), and "
-                                      "none is"));
+  EXPECT_THAT(refused.text,
+              HasSubstr("a.rib:4:1: error: Procedural: DynamicLoad \"balls.so\": plug-ins are loaded "
+                        "only from folders named with --procedurals (or in ANEMONE_PROCEDURALS), and "
+                        "none is"));
   std::filesystem::create_directories(directory_ / "other");
   EXPECT_THAT(run("-procedurals other a.rib").text,
               HasSubstr("no such plug-in in the folders of --procedurals \"other\"; \""));
@@ -91,10 +93,12 @@ TEST_F(PlugIns, may_be_damaged_or_incomplete) {
   Outcome o = run("-procedurals plug a.rib");
   EXPECT_EQ(o.status, 1);
   EXPECT_THAT(o.text, HasSubstr("a.rib:3:1: error: Procedural: DynamicLoad \"incomplete\": \""));
-  EXPECT_THAT(o.text, HasSubstr("plug/incomplete.so\" does not define ConvertParameters, Subdivide; a plug-in has "
-                                "ConvertParameters, Subdivide and Free, with C linkage"));
+  EXPECT_THAT(o.text,
+              HasSubstr("plug/incomplete.so\" does not define ConvertParameters, Subdivide; a plug-in has "
+                        "ConvertParameters, Subdivide and Free, with C linkage"));
   EXPECT_THAT(o.text, Not(HasSubstr("a.rib:4:1"))) << "said once";
-  EXPECT_THAT(o.text, HasSubstr("a.rib:5:1: error: Procedural: DynamicLoad \"text.so\": it cannot be loaded: "));
+  EXPECT_THAT(o.text,
+              HasSubstr("a.rib:5:1: error: Procedural: DynamicLoad \"text.so\": it cannot be loaded: "));
 }
 
 TEST_F(PlugIns, may_use_functions_of_their_own_and_make_mistakes) {

@@ -10,8 +10,11 @@
 namespace render::testing {
 
 float RandomCalls::number() {
-  constexpr float kSpecial[] = {0,     -0.0f,  1,       -1,         0.1f,  1e-38f, 1e38f, 3.4028235e38f, 1e-45f,
-                                16777216, 123456.0f, 1e6f, 33554430.0f, 0.3f, std::numeric_limits<float>::infinity()};
+  constexpr float kSpecial[] = {0,           -0.0f,         1,
+                                -1,          0.1f,          1e-38f,
+                                1e38f,       3.4028235e38f, 1e-45f,
+                                16777216,    123456.0f,     1e6f,
+                                33554430.0f, 0.3f,          std::numeric_limits<float>::infinity()};
   switch (random_() % 4) {
   case 0: return kSpecial[random_() % std::size(kSpecial)];
   case 1: return static_cast<float>(static_cast<int>(random_() % 2001) - 1000);
@@ -25,8 +28,18 @@ float RandomCalls::number() {
 }
 
 std::string RandomCalls::text() {
-  constexpr const char* kTexts[] = {"", "a", "12", "007", "C:\\tex\\wood.tif", "say \"hi\"", "two\nlines\r\n\ttab",
-                                    "#no comment [ ]", "$user:pass", "\x01\x7f\x80\xff" "7", "uniform float x"};
+  constexpr const char* kTexts[] = {"",
+                                    "a",
+                                    "12",
+                                    "007",
+                                    "C:\\tex\\wood.tif",
+                                    "say \"hi\"",
+                                    "two\nlines\r\n\ttab",
+                                    "#no comment [ ]",
+                                    "$user:pass",
+                                    "\x01\x7f\x80\xff"
+                                    "7",
+                                    "uniform float x"};
   return random_() % 3 == 0 ? std::string(random_() % 40, static_cast<char>('a' + random_() % 26))
                             : kTexts[random_() % std::size(kTexts)];
 }
@@ -84,7 +97,8 @@ RequestCall RandomCalls::make(RequestId id) {
   call.arguments.resize(info.arguments.size());
   bool optional = true; // present up to some point, as the parser takes them
   for (size_t i = 0; i < info.arguments.size(); ++i) {
-    if (info.arguments[i].optional && id != RequestId::kDepthOfField) optional = optional && (i > 3 || flip());
+    if (info.arguments[i].optional && id != RequestId::kDepthOfField)
+      optional = optional && (i > 3 || flip());
     if (!info.arguments[i].optional || (optional && id != RequestId::kDepthOfField))
       argument(info.arguments[i], call.arguments[i]);
   }
@@ -124,7 +138,8 @@ std::string difference(const RequestCall& a, const RequestCall& b) {
   if (a.id != b.id) return fmt::format("{} became {}", a.info().name, b.info().name);
   for (size_t i = 0; i < a.arguments.size(); ++i) {
     const Argument &x = a.arguments[i], &y = b.arguments[i];
-    if (x.present != y.present) return fmt::format("argument {}: present {} became {}", i, x.present, y.present);
+    if (x.present != y.present)
+      return fmt::format("argument {}: present {} became {}", i, x.present, y.present);
     if (!same(x.numbers, y.numbers) || x.ints != y.ints || x.strings != y.strings)
       return fmt::format("argument {}: {} {} {} became {} {} {}", i, x.numbers, x.ints, x.strings, y.numbers,
                          y.ints, y.strings);
@@ -133,7 +148,8 @@ std::string difference(const RequestCall& a, const RequestCall& b) {
     return fmt::format("{} parameters became {}", a.params.size(), b.params.size());
   for (size_t i = 0; i < a.params.size(); ++i) {
     const Param &x = a.params[i], &y = b.params[i];
-    if (x.token != y.token || !same(x.numbers, y.numbers) || x.strings != y.strings || x.integers != y.integers)
+    if (x.token != y.token || !same(x.numbers, y.numbers) || x.strings != y.strings ||
+        x.integers != y.integers)
       return fmt::format("\"{}\" {} {} {} became \"{}\" {} {} {}", x.token, x.numbers, x.strings, x.integers,
                          y.token, y.numbers, y.strings, y.integers);
   }

@@ -67,7 +67,8 @@ TEST_F(RiErrors, nesting) {
               RiAttributeEnd();
             }).substr(0, 58),
             "24 2: AttributeEnd: TransformBegin is still open");
-  EXPECT_EQ(both([] { RiObjectEnd(); }), "24 2: ObjectEnd: there is no open ObjectBegin; the request is skipped");
+  EXPECT_EQ(both([] { RiObjectEnd(); }),
+            "24 2: ObjectEnd: there is no open ObjectBegin; the request is skipped");
   RiBegin(RI_NULL);
   RiAttributeBegin();
   told().clear();
@@ -82,9 +83,10 @@ TEST_F(RiErrors, places) {
   told().clear();
   RiSphere(1, -1, 1, 360, RI_NULL);
   RiSolidBegin(RI_UNION);
-  EXPECT_THAT(told(),
-              ElementsAre("27 2: Sphere: this belongs between WorldBegin and WorldEnd; the request is skipped",
-                          "28 2: SolidBegin: this belongs between WorldBegin and WorldEnd; the request is skipped"));
+  EXPECT_THAT(
+      told(),
+      ElementsAre("27 2: Sphere: this belongs between WorldBegin and WorldEnd; the request is skipped",
+                  "28 2: SolidBegin: this belongs between WorldBegin and WorldEnd; the request is skipped"));
 }
 
 TEST_F(RiErrors, null_pointers) {
@@ -142,9 +144,10 @@ TEST_F(RiErrors, tokens) {
   RtFloat x = 1;
   EXPECT_EQ(both([&] { RiSphere(1, -1, 1, 360, "heat", &x, RI_NULL); }),
             "41 2: RiSphere: \"heat\" is not declared; RiDeclare says its type, or the token: \"float x\"");
-  EXPECT_EQ(both([&] { RiSurface("plastic", "roughnes", &x, RI_NULL); }),
-            "41 2: RiSurface: \"roughnes\" is not declared; did you mean \"roughness\"?; RiDeclare says its type, "
-            "or the token: \"float x\"");
+  EXPECT_EQ(
+      both([&] { RiSurface("plastic", "roughnes", &x, RI_NULL); }),
+      "41 2: RiSurface: \"roughnes\" is not declared; did you mean \"roughness\"?; RiDeclare says its type, "
+      "or the token: \"float x\"");
   EXPECT_EQ(both([&] { RiArchiveRecord("note", "x"); }),
             "41 2: RiArchiveRecord: unknown type \"note\"; known are comment, structure, verbatim");
   EXPECT_EQ(both([&] { RiIfBegin("1", "float x", &x, RI_NULL), RiIfEnd(); }),
@@ -185,13 +188,15 @@ TEST_F(RiErrors, what_only_a_renderer_can_do) {
   RiPixelFilter([](RtFloat, RtFloat, RtFloat, RtFloat) -> RtFloat { return 1; }, 2, 2);
   RtPoint p[1] = {{0, 0, 0}};
   EXPECT_EQ(RiTransformPoints("world", "camera", 1, p), nullptr);
-  RiMakeTexture("i", "t", RI_CLAMP, RI_CLAMP, [](RtFloat, RtFloat, RtFloat, RtFloat) -> RtFloat { return 1; }, 2, 2,
-                RI_NULL);
-  EXPECT_THAT(told(), ElementsAre("11 2: PixelFilter: a file cannot keep a function; expected one of ri.h, such as "
-                                  "RiGaussianFilter",
-                                  "41 2: RiTransformPoints: spaces are not known where a file is written",
-                                  "11 2: RiMakeTexture: 'filter' is a function of the program's own; expected one of "
-                                  "ri.h, such as RiGaussianFilter"));
+  RiMakeTexture(
+      "i", "t", RI_CLAMP, RI_CLAMP, [](RtFloat, RtFloat, RtFloat, RtFloat) -> RtFloat { return 1; }, 2, 2,
+      RI_NULL);
+  EXPECT_THAT(told(),
+              ElementsAre("11 2: PixelFilter: a file cannot keep a function; expected one of ri.h, such as "
+                          "RiGaussianFilter",
+                          "41 2: RiTransformPoints: spaces are not known where a file is written",
+                          "11 2: RiMakeTexture: 'filter' is a function of the program's own; expected one of "
+                          "ri.h, such as RiGaussianFilter"));
 }
 
 TEST_F(RiErrors, functions_that_make_functions_for_ever) {
@@ -206,8 +211,10 @@ TEST_F(RiErrors, functions_that_make_functions_for_ever) {
   Maker::make(nullptr, 0);
   RiWorldEnd();
   RiEnd();
-  EXPECT_THAT(told(), ElementsAre("13 2: Procedural: functions make functions more than 16 deep, or more than 1000000 "
-                                  "of them; the rest is left out of the file"));
+  EXPECT_THAT(
+      told(),
+      ElementsAre("13 2: Procedural: functions make functions more than 16 deep, or more than 1000000 "
+                  "of them; the rest is left out of the file"));
 }
 
 TEST_F(RiErrors, functions_stay_in_their_renderer) {
@@ -227,16 +234,18 @@ TEST_F(RiErrors, functions_stay_in_their_renderer) {
       },
       RI_NULL);
   RiObjectBegin();
-  RiProcedural(RI_NULL, bound, [](RtPointer, RtFloat) { ADD_FAILURE(); }, RI_NULL);
+  RiProcedural(
+      RI_NULL, bound, [](RtPointer, RtFloat) { ADD_FAILURE(); }, RI_NULL);
   RiObjectEnd();
   RiWorldEnd();
-  EXPECT_THAT(told(), ElementsAre("28 2: Procedural: a function cannot be kept in an object, an archive or a motion "
-                                  "block",
-                                  "24 2: RiBegin: functions of a procedural cannot begin a renderer",
-                                  "24 2: RiEnd: functions of a procedural cannot end the renderer",
-                                  "24 2: RiContext: functions of a procedural cannot change the context",
-                                  HasSubstr("WorldEnd: a procedural cannot end the world; the request is skipped"),
-                                  HasSubstr("Procedural: function: a block is left open at its end")));
+  EXPECT_THAT(told(),
+              ElementsAre("28 2: Procedural: a function cannot be kept in an object, an archive or a motion "
+                          "block",
+                          "24 2: RiBegin: functions of a procedural cannot begin a renderer",
+                          "24 2: RiEnd: functions of a procedural cannot end the renderer",
+                          "24 2: RiContext: functions of a procedural cannot change the context",
+                          HasSubstr("WorldEnd: a procedural cannot end the world; the request is skipped"),
+                          HasSubstr("Procedural: function: a block is left open at its end")));
 }
 
 TEST_F(RiErrors, handlers_belong_to_contexts) {

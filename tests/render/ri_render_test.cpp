@@ -166,7 +166,8 @@ TEST_F(RiRender, functions_divide_by_detail) {
     static void divide(RtPointer data, RtFloat detail) {
       auto* s = static_cast<RtFloat*>(data);
       if (detail < 100) {
-        RtPoint P[4] = {{s[0], s[1], 0}, {s[0], s[1] + s[2], 0}, {s[0] + s[2], s[1] + s[2], 0}, {s[0] + s[2], s[1], 0}};
+        RtPoint P[4] = {
+            {s[0], s[1], 0}, {s[0], s[1] + s[2], 0}, {s[0] + s[2], s[1] + s[2], 0}, {s[0] + s[2], s[1], 0}};
         RiPolygon(4, RI_P, P, RI_NULL);
         ++leaves();
         return;
@@ -261,8 +262,10 @@ void listen(RtToken type, char* format, ...) {
 }
 
 TEST_F(RiRender, archives_are_read_with_their_comments) {
-  folder_.write("a.rib", "##RenderMan RIB\n# a ball\nDeclare \"heat\" \"varying float\" Basis \"b-spline\" 1 \"b-spline\" 1\n"
-                         "Sphere 1 -1 1 360 # at last");
+  folder_.write(
+      "a.rib",
+      "##RenderMan RIB\n# a ball\nDeclare \"heat\" \"varying float\" Basis \"b-spline\" 1 \"b-spline\" 1\n"
+      "Sphere 1 -1 1 360 # at last");
   std::string name = folder_ / "a.rib";
   heard().clear();
   RiBegin(RI_NULL);
@@ -281,12 +284,14 @@ TEST_F(RiRender, archives_are_read_with_their_comments) {
   RiReadArchive("gone.rib", RI_NULL, RI_NULL);
   RiWorldEnd();
   RiEnd();
-  EXPECT_THAT(told(), ElementsAre(HasSubstr("1: <RiArchiveRecord>:1:31: unknown request Spher; did you mean Sphere?"),
-                                  HasSubstr("3 2: ReadArchive: no archive \"gone.rib\" in the search path")));
+  EXPECT_THAT(told(),
+              ElementsAre(HasSubstr("1: <RiArchiveRecord>:1:31: unknown request Spher; did you mean Sphere?"),
+                          HasSubstr("3 2: ReadArchive: no archive \"gone.rib\" in the search path")));
 }
 
 TEST_F(RiRender, programs_run_when_the_program_says_so_but_not_archives) {
-  folder_.write("maker", "#!/bin/sh\nwhile read line; do echo 'Sphere .5 -.5 .5 360'; printf '\\377'; done\n");
+  folder_.write("maker",
+                "#!/bin/sh\nwhile read line; do echo 'Sphere .5 -.5 .5 360'; printf '\\377'; done\n");
   std::filesystem::permissions(folder_ / "maker", std::filesystem::perms::owner_all);
   std::string maker = folder_ / "maker", archive = folder_ / "a.rib";
   folder_.write("a.rib", "Procedural \"RunProgram\" [\"" + maker + "\" \"\"] [-1 1 -1 1 -1 1]");

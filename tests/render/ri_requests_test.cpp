@@ -57,9 +57,10 @@ TEST(RiHeader, has_a_function_for_every_request) {
 TEST(RiHeader, names_arguments_as_the_table_does) {
   auto all = functions();
   // Where C differs: what has another form there is not compared.
-  const std::set<std::string> kOther{"RiHyperboloid", "RiPolygon",   "RiPoints",     "RiMotionBegin",
-                                     "RiProcedural",  "RiBlobby",    "RiObjectBegin", "RiObjectInstance",
-                                     "RiLightSource", "RiArchiveEnd", "RiClipping",   "RiDepthOfField", "RiPixelFilter"};
+  const std::set<std::string> kOther{"RiHyperboloid", "RiPolygon",    "RiPoints",      "RiMotionBegin",
+                                     "RiProcedural",  "RiBlobby",     "RiObjectBegin", "RiObjectInstance",
+                                     "RiLightSource", "RiArchiveEnd", "RiClipping",    "RiDepthOfField",
+                                     "RiPixelFilter"};
   for (const RequestInfo& info : requests()) {
     std::string name = "Ri" + std::string(info.name);
     if (kOther.contains(name) || info.id == RequestId::kversion) continue;
@@ -339,7 +340,9 @@ std::vector<size_t> lengths(const std::string& text) {
 }
 
 /// RISpec 3.2, sections 5.1 to 5.6: uniform, varying, vertex, facevarying.
-#define RI_CLASSES "uniform float u", data, "varying float v", data, "vertex float w", data, "facevarying float f", data, RI_NULL
+#define RI_CLASSES                                                                                           \
+  "uniform float u", data, "varying float v", data, "vertex float w", data, "facevarying float f", data,     \
+      RI_NULL
 
 TEST_F(RiRequests, lists_are_as_long_as_the_primitive_says) {
   std::vector<RtFloat> many(2000);
@@ -351,8 +354,12 @@ TEST_F(RiRequests, lists_are_as_long_as_the_primitive_says) {
   EXPECT_THAT(sizes([&] { RiPolygon(5, RI_CLASSES); }), ElementsAre(1, 5, 5, 5));
   EXPECT_THAT(sizes([&] { RiGeneralPolygon(2, n3, RI_CLASSES); }), ElementsAre(1, 7, 7, 7));
   EXPECT_THAT(sizes([&] { RiPointsPolygons(2, n3, verts, RI_CLASSES); }), ElementsAre(2, 10, 10, 7));
-  EXPECT_THAT(sizes([&] { RiPointsGeneralPolygons(2, loops, n9, verts9, RI_CLASSES); }), ElementsAre(2, 8, 8, 9));
-  EXPECT_THAT(sizes([&] { RiSubdivisionMesh("catmull-clark", 2, n3, verts, 0, nullptr, nullptr, nullptr, nullptr, RI_CLASSES); }),
+  EXPECT_THAT(sizes([&] { RiPointsGeneralPolygons(2, loops, n9, verts9, RI_CLASSES); }),
+              ElementsAre(2, 8, 8, 9));
+  EXPECT_THAT(sizes([&] {
+                RiSubdivisionMesh("catmull-clark", 2, n3, verts, 0, nullptr, nullptr, nullptr, nullptr,
+                                  RI_CLASSES);
+              }),
               ElementsAre(2, 10, 10, 7));
   EXPECT_THAT(sizes([&] { RiPatch(RI_BILINEAR, RI_CLASSES); }), ElementsAre(1, 4, 4, 4));
   EXPECT_THAT(sizes([&] { RiPatch(RI_BICUBIC, RI_CLASSES); }), ElementsAre(1, 4, 16, 4));
@@ -365,12 +372,18 @@ TEST_F(RiRequests, lists_are_as_long_as_the_primitive_says) {
               ElementsAre(1 * 2, 2 * 3, 16, 6));
   EXPECT_THAT(sizes([&] { RiPoints(6, RI_CLASSES); }), ElementsAre(1, 6, 6, 6));
   RtInt curve[2] = {4, 7};
-  EXPECT_THAT(sizes([&] { RiCurves(RI_CUBIC, 2, curve, RI_NONPERIODIC, RI_CLASSES); }), ElementsAre(2, 2 + 3, 11, 5));
-  EXPECT_THAT(sizes([&] { RiCurves(RI_LINEAR, 2, curve, RI_PERIODIC, RI_CLASSES); }), ElementsAre(2, 11, 11, 11));
+  EXPECT_THAT(sizes([&] { RiCurves(RI_CUBIC, 2, curve, RI_NONPERIODIC, RI_CLASSES); }),
+              ElementsAre(2, 2 + 3, 11, 5));
+  EXPECT_THAT(sizes([&] { RiCurves(RI_LINEAR, 2, curve, RI_PERIODIC, RI_CLASSES); }),
+              ElementsAre(2, 11, 11, 11));
   RtInt code[2] = {1000, 0};
   RtFloat constant[1] = {1};
-  EXPECT_THAT(sizes([&] { RiBlobby(1, 2, code, 1, constant, 0, nullptr, RI_CLASSES); }), ElementsAre(1, 1, 1, 1));
-  EXPECT_THAT(sizes([&] { RiPolygon(3, RI_P, data, "vertex hpoint h", data, "constant color c", data, "float[3] a", data, "st", data, RI_NULL); }),
+  EXPECT_THAT(sizes([&] { RiBlobby(1, 2, code, 1, constant, 0, nullptr, RI_CLASSES); }),
+              ElementsAre(1, 1, 1, 1));
+  EXPECT_THAT(sizes([&] {
+                RiPolygon(3, RI_P, data, "vertex hpoint h", data, "constant color c", data, "float[3] a",
+                          data, "st", data, RI_NULL);
+              }),
               ElementsAre(9, 12, 3, 3, 6));
   EXPECT_THAT(told(), IsEmpty());
 }
@@ -410,7 +423,8 @@ TEST_F(RiRequests, meshes) {
               RiPointsPolygons(2, nvertices, vertices, RI_NULL);
               RiGeneralPolygon(2, nvertices, RI_NULL);
               RiPointsGeneralPolygons(1, loops, nvertices, vertices, RI_NULL);
-              RiSubdivisionMesh(RI_CATMULLCLARK, 2, nvertices, vertices, 2, tags, nargs, ints, floats, RI_NULL);
+              RiSubdivisionMesh(RI_CATMULLCLARK, 2, nvertices, vertices, 2, tags, nargs, ints, floats,
+                                RI_NULL);
               RiPatch(RI_BICUBIC, RI_NULL);
               RiPatchMesh(RI_BILINEAR, 2, RI_PERIODIC, 3, RI_NONPERIODIC, RI_NULL);
               RiBlobby(1, 4, code, 2, one_, 1, name, RI_NULL);
@@ -420,7 +434,8 @@ TEST_F(RiRequests, meshes) {
             "PointsPolygons [3 3] [0 1 2 2 1 3]\n"
             "GeneralPolygon [3 3]\n"
             "PointsGeneralPolygons [2] [3 3] [0 1 2 2 1 3]\n"
-            "SubdivisionMesh \"catmull-clark\" [3 3] [0 1 2 2 1 3] [\"crease\" \"interpolateboundary\"] [2 1 0 0] [0 1]\n"
+            "SubdivisionMesh \"catmull-clark\" [3 3] [0 1 2 2 1 3] [\"crease\" \"interpolateboundary\"] [2 1 "
+            "0 0] [0 1]\n"
             "    [2.5]\n"
             "Patch \"bicubic\"\n"
             "PatchMesh \"bilinear\" 2 \"periodic\" 3 \"nonperiodic\"\n"

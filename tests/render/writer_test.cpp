@@ -117,8 +117,8 @@ TEST(RibWriter, long_arrays_are_wrapped) {
 
 TEST(RibWriter, comments_keep_their_place) {
   CallList list = parse_calls("# one\nSides 1 # two\n##Scene\nColor # inside\n 1 0 0\n# last");
-  EXPECT_THAT(list.comments, ElementsAre(Pair(0, " one"), Pair(1, " two"), Pair(1, "#Scene"), Pair(2, " inside"),
-                                         Pair(2, " last")));
+  EXPECT_THAT(list.comments, ElementsAre(Pair(0, " one"), Pair(1, " two"), Pair(1, "#Scene"),
+                                         Pair(2, " inside"), Pair(2, " last")));
 }
 
 TEST(RibWriter, content_that_is_no_rib_is_kept) {
