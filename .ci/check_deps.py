@@ -34,6 +34,9 @@ ALLOWED = {
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
     "render": ["public"],
+    # What slrender and the C interface share: shaders are compiled on the fly.
+    "render/setup": ["render", "slc", "public"],
+    "render/ri": ["render", "public"],
     "render/tools": ["render", "slc", "public"],
     "stdlib": [],
     "stdlib/dso": ["public"],

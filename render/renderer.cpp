@@ -31,6 +31,8 @@ struct Renderer::Impl {
     interpreter.override_options = settings.override_options;
     interpreter.allow_programs = settings.allow_programs;
     interpreter.program_limits.seconds = settings.program_seconds;
+    interpreter.plug_in_folders = settings.plug_in_folders;
+    interpreter.around_plug_in = settings.around_plug_in;
     interpreter.make_map = make_map;
   }
 
@@ -199,6 +201,9 @@ void Renderer::read_text(std::string name, std::string text) {
 }
 void Renderer::finish() {
   impl_->interpreter.finish();
+}
+Interpreter& Renderer::interpreter() {
+  return impl_->interpreter;
 }
 Options& Renderer::options() {
   return impl_->interpreter.options();

@@ -117,9 +117,10 @@ bool Interpreter::legal(const RequestCall& call) {
   const RequestInfo& info = call.info();
   if (in_world_ ? info.world : info.outside) return true;
   if (in_world_)
-    error(call, "options cannot change inside a world block; the request is skipped");
+    error(call, "options cannot change inside a world block; the request is skipped", RiError::kNotOptions);
   else
-    error(call, "this belongs between WorldBegin and WorldEnd; the request is skipped");
+    error(call, "this belongs between WorldBegin and WorldEnd; the request is skipped",
+          is_primitive(call.id) ? RiError::kNotPrimitives : RiError::kIllegalState);
   return false;
 }
 
@@ -130,6 +131,7 @@ void Interpreter::finish() {
                                    recording_.name, request_info(recording_.end).name));
   for (const Block& b : blocks_)
     diagnostics_.error(b.where, "this block is not closed before the end of the file");
+  if (recording_.depth > 0 || !blocks_.empty()) error_kind_ = RiError::kNesting;
   if (in_world_) diagnostics_.error(blocks_.front().where, "nothing is rendered: WorldEnd is missing");
 }
 
@@ -140,12 +142,14 @@ void Interpreter::unknown_request(std::string_view name, std::string_view sugges
             fmt::format("unknown request {}{}", name, hint));
 }
 
-void Interpreter::error(const RequestCall& call, std::string_view text) {
-  error_at(call.where, call, text);
+void Interpreter::error(const RequestCall& call, std::string_view text, RiError kind) {
+  error_at(call.where, call, text, kind);
 }
 
-void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std::string_view text) {
+void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std::string_view text,
+                           RiError kind) {
   if (error_handler_ == ErrorHandling::kIgnore) return;
+  error_kind_ = kind;
   diagnostics_.error(where, fmt::format("{}: {}", call.info().name, text));
 }
 
@@ -191,7 +195,7 @@ bool Interpreter::stopped(const RequestCall& call) {
 
 void Interpreter::declare(const RequestCall& call) {
   auto d = declarations_.declare(call.text(0), call.text(1));
-  if (!d) error_at(call.arguments[1].where, call, d.error());
+  if (!d) error_at(call.arguments[1].where, call, d.error(), RiError::kSyntax);
 }
 
 void Interpreter::version(const RequestCall& call) {

@@ -151,7 +151,8 @@ void Interpreter::illuminate(const RequestCall& call) {
   const std::string& handle = call.text(0);
   auto it = lights_.find(handle);
   if (it == lights_.end()) {
-    error_at(call.arguments[0].where, call, fmt::format("no light has the handle \"{}\"", handle));
+    error_at(call.arguments[0].where, call, fmt::format("no light has the handle \"{}\"", handle),
+             RiError::kBadHandle);
     return;
   }
   auto& on = edit().lights;
@@ -164,7 +165,7 @@ void Interpreter::shading_rate(const RequestCall& call) {
   if (call.number(0) > 0)
     edit().shading_rate = std::max(call.number(0), kFinest);
   else
-    error(call, "the shading rate must be positive");
+    error(call, "the shading rate must be positive", RiError::kRange);
 }
 
 void Interpreter::shading_interpolation(const RequestCall& call) {
@@ -209,7 +210,7 @@ void Interpreter::sides(const RequestCall& call) {
   if (call.integer(0) == 1 || call.integer(0) == 2)
     edit().sides = call.integer(0);
   else
-    error(call, "a surface has 1 or 2 sides");
+    error(call, "a surface has 1 or 2 sides", RiError::kRange);
 }
 
 namespace {

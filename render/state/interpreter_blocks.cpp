@@ -32,12 +32,13 @@ bool Interpreter::close(const RequestCall& call, BlockKind kind) {
   for (size_t i = at; i < blocks_.size(); ++i)
     crosses_world = crosses_world || blocks_[i].kind <= BlockKind::kWorld;
   if (at == 0 || (crosses_world && kind > BlockKind::kWorld)) {
-    error(call, fmt::format("there is no open {}; the request is skipped", opener));
+    error(call, fmt::format("there is no open {}; the request is skipped", opener), RiError::kNesting);
     return false;
   }
   for (size_t i = blocks_.size(); i > at; --i) {
     std::string_view inner = kBlockNames[static_cast<size_t>(blocks_[i - 1].kind)];
     auto& d = diagnostics_.error(call.where, fmt::format("{}: {} is still open", call.info().name, inner));
+    error_kind_ = RiError::kNesting;
     d.notes.push_back({blocks_[i - 1].where, fmt::format("{} stands here", inner)});
   }
   const Block& block = blocks_[at - 1];

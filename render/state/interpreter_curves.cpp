@@ -21,29 +21,14 @@ EyeInObject eye_in_object(const Options& options, const PrimitiveState& state) {
 } // namespace
 
 void Interpreter::curves(const RequestCall& call) {
+  auto sizes = sizes_of(call);
+  if (!sizes) return;
   CurveLayout layout;
   layout.cubic = call.text(0) == "cubic";
-  if (!layout.cubic && call.text(0) != "linear") {
-    error_at(call.arguments[0].where, call,
-             fmt::format("unknown type \"{}\"; expected \"linear\" or \"cubic\"", call.text(0)));
-    return;
-  }
-  auto periodic = wraps(call, 2);
-  if (!periodic) return;
-  layout.periodic = *periodic;
+  layout.periodic = call.text(2) == "periodic";
   layout.basis = attributes_->vbasis;
   std::span<const int> counts = call.integers(1);
-  size_t points = 0, corners = 0;
-  for (int n : counts) {
-    if (n < layout.fewest()) {
-      error_at(call.arguments[1].where, call,
-               fmt::format("a {} curve has at least {} points, found {}", call.text(0), layout.fewest(), n));
-      return;
-    }
-    points += static_cast<size_t>(n);
-    corners += static_cast<size_t>(layout.varying(n));
-  }
-  std::vector<TypedParam> vars = primitive_vars(call, {counts.size(), corners, points, corners});
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
   auto state = primitive_state();
@@ -52,9 +37,7 @@ void Interpreter::curves(const RequestCall& call) {
 }
 
 void Interpreter::points(const RequestCall& call) {
-  const Param* p = call.find_param("P");
-  size_t n = p ? p->numbers.size() / 3 : 0;
-  std::vector<TypedParam> vars = primitive_vars(call, {1, n, n, n});
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes_of(call));
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
   auto state = primitive_state();

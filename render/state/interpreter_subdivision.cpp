@@ -109,13 +109,11 @@ void Interpreter::subdivision_mesh(const RequestCall& call) {
   mesh.loop = scheme == "loop";
   mesh.nvertices = call.integers(1);
   mesh.vertices = call.integers(2);
-  auto corners = check_loops(call, 1, mesh.nvertices);
-  if (!corners) return;
-  auto points = check_vertices(call, 2, *corners);
-  if (!points) return;
-  std::vector<TypedParam> vars = primitive_vars(call, {mesh.nvertices.size(), *points, *points, *corners});
+  auto sizes = sizes_of(call);
+  if (!sizes) return;
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
-  if (!take_positions(call, vars, P) || !subdivision_tags(call, *points, mesh)) return;
+  if (!take_positions(call, vars, P) || !subdivision_tags(call, sizes->vertex, mesh)) return;
   auto made = add_subdivision(mesh, P, vars, primitive_state(), scene_.primitives);
   if (!made)
     error(call, made.error());

@@ -29,7 +29,8 @@ enum class FilterKind : uint8_t {
   kSeparableCatmullRom,
   kBlackmanHarris,
   kLanczos,
-  kBessel
+  kBessel,
+  kFunction, ///< PixelFilter::function
 };
 /// By the name a scene uses: "box", "catmull-rom"...
 std::optional<FilterKind> find_filter(std::string_view name);
@@ -40,6 +41,8 @@ struct PixelFilter {
   FilterKind kind = FilterKind::kGaussian;
   float xwidth = 2, ywidth = 2;
   bool operator==(const PixelFilter&) const = default;
+  /// Of kFunction: the weight at (x, y) from the centre, given the two widths. Called from many threads.
+  float (*function)(float x, float y, float xwidth, float ywidth) = nullptr;
 };
 
 /// What is on the side its normal points to is not drawn. Camera space.

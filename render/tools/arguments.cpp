@@ -2,8 +2,8 @@
 // (--progress).
 #include "render/tools/arguments.h"
 
+#include "render/setup/places.h"
 #include "render/state/search_path.h"
-#include "render/tools/places.h"
 #include "slvm/support/shared_library.h"
 
 #include <CLI/CLI.hpp>
@@ -57,17 +57,6 @@ std::optional<int> thread_count(const std::string& text) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) + static_cast<int>(n));
 }
 
-/// The current directory and what comes with Anemone, unless the environment and then the option say
-/// otherwise.
-std::vector<std::string> directories(const std::string& option, const char* variable,
-                                     const std::vector<std::string>& installed) {
-  const char* environment = std::getenv(variable);
-  std::vector<std::string> standard{"."};
-  standard.insert(standard.end(), installed.begin(), installed.end());
-  if (environment) standard = parse_search_path(environment, {}, standard);
-  return option.empty() ? standard : parse_search_path(option, {}, standard);
-}
-
 } // namespace
 
 Arguments parse_arguments(int argc, char** argv) {
@@ -101,7 +90,8 @@ Arguments parse_arguments(int argc, char** argv) {
                  "(environment: ANEMONE_SHADERS)");
   app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
   app.add_option("--procedurals", procedurals,
-                 "the same for programs that make geometry (environment: ANEMONE_PROCEDURALS)");
+                 "the same for programs and plug-ins that make geometry; plug-ins (Procedural \"DynamicLoad\") come "
+                 "from nowhere else (environment: ANEMONE_PROCEDURALS)");
   app.add_option(
       "--dso", plugins,
       "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
@@ -147,9 +137,10 @@ Arguments parse_arguments(int argc, char** argv) {
   if (crop.size() == 4) out.crop = {crop[0], crop[1], crop[2], crop[3]};
   if (resolution.size() == 2) out.resolution = {resolution[0], resolution[1]};
   if (out.files.empty()) out.files.emplace_back("-");
-  out.shader_path = directories(shaders, "ANEMONE_SHADERS", standard_shader_folders());
-  out.archive_path = directories(archives, "ANEMONE_ARCHIVES", {});
-  out.procedural_path = directories(procedurals, "ANEMONE_PROCEDURALS", {});
+  out.shader_path = setup::search_path(shaders, "ANEMONE_SHADERS", setup::standard_shader_folders());
+  out.archive_path = setup::search_path(archives, "ANEMONE_ARCHIVES", {});
+  out.procedural_path = setup::search_path(procedurals, "ANEMONE_PROCEDURALS", {});
+  out.plug_in_folders = setup::plug_in_folders(procedurals, "ANEMONE_PROCEDURALS");
   out.plugin_folders = slvm::plugin_folders(plugins);
   return out;
 }

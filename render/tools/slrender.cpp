@@ -1,8 +1,9 @@
 // slrender: reads RIB files and renders every world block in them.
 #include "render/renderer.h"
+#include "render/ri/plug_in_calls.h"
+#include "render/setup/compiling_loader.h"
 #include "render/statistics.h"
 #include "render/tools/arguments.h"
-#include "render/tools/compiling_loader.h"
 #include "slvm/support/whole_file.h"
 
 #include <fmt/format.h>
@@ -108,10 +109,13 @@ int run(const Arguments& arguments) {
   settings.allow_programs = arguments.allow_programs;
   settings.preview = arguments.preview;
   settings.program_seconds = arguments.program_seconds;
-  settings.shader_loader = render::tools::make_compiling_loader(
-      [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); },
-      arguments.plugin_folders);
   settings.plugin_folders = arguments.plugin_folders;
+  settings.plug_in_folders = arguments.plug_in_folders;
+  render::ri::PlugInCalls plug_in_calls;
+  settings.around_plug_in = plug_in_calls.around();
+  settings.shader_loader = render::setup::make_compiling_loader(
+      "slrender", [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); },
+      arguments.plugin_folders);
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
   settings.flush_messages = [&] { messages.flush(); };
   settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
@@ -127,6 +131,7 @@ int run(const Arguments& arguments) {
   if (progress.wanted()) settings.progress = [&](double fraction) { progress.show(fraction); };
 
   render::Renderer renderer(messages.sources, messages.diagnostics, settings);
+  plug_in_calls.attach(renderer, messages.diagnostics);
   renderer.set_standard_path("shader", arguments.shader_path);
   renderer.set_standard_path("archive", arguments.archive_path);
   renderer.set_standard_path("procedural", arguments.procedural_path);

@@ -1,5 +1,5 @@
 // slrender as users run it: options, exit codes, messages.
-#include "tests/temp_folder.h"
+#include "tests/render/run_slrender.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,31 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class SlrenderTest : public ::testing::Test {
-protected:
-  void file(const std::string& name, const std::string& text) { directory_.write(name, text); }
-  bool exists(const std::string& name) const { return directory_.has(name); }
-
-  struct Outcome {
-    int status;
-    std::string text; ///< standard output and errors together
-  };
-  /// Runs slrender in the test's directory.
-  Outcome run(const std::string& arguments) {
-    std::string command =
-        fmt::format("cd '{}' && '{}' {} 2>&1", directory_.string(), SLRENDER_PROGRAM, arguments);
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    Outcome out{-1, {}};
-    char buffer[4096];
-    for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
-      out.text.append(buffer, n);
-    int status = ::pclose(pipe);
-    out.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return out;
-  }
-
-  anemone::test::TempFolder directory_;
-};
+using anemone::test::SlrenderTest;
 
 const char* kScene = "Display \"a.png\" \"png\" \"rgba\"\nFormat 32 24 1\nWorldBegin\nTranslate 0 0 5\n"
                      "Sphere 1 -1 1 360\nWorldEnd\n";

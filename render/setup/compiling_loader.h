@@ -10,11 +10,11 @@
 #include <string_view>
 #include <vector>
 
-namespace render::tools {
+namespace render::setup {
 
-/// `show` gets warnings and the compiler's messages, ready to be printed. `plugin_folders`: where functions
-/// of plug-ins are found.
-ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show,
+/// `show` gets warnings and the compiler's messages, ready to be printed; `program` is what the former begin
+/// with. `plugin_folders`: where functions of plug-ins are found.
+ShaderLoader make_compiling_loader(std::string program, std::function<void(std::string_view)> show,
                                    std::vector<std::string> plugin_folders = {});
 
-} // namespace render::tools
+} // namespace render::setup

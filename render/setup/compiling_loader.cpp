@@ -1,8 +1,8 @@
 // Compiling shaders on the fly.
-#include "render/tools/compiling_loader.h"
+#include "render/setup/compiling_loader.h"
 
+#include "render/setup/places.h"
 #include "render/state/search_path.h"
-#include "render/tools/places.h"
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
@@ -16,14 +16,15 @@
 #include <memory>
 #include <span>
 
-namespace render::tools {
+namespace render::setup {
 
 namespace {
 
 class CompilingLoader {
 public:
-  CompilingLoader(std::function<void(std::string_view)> show, std::vector<std::string> plugin_folders)
-      : show_(std::move(show)), plugins_(std::move(plugin_folders)) {}
+  CompilingLoader(std::string program, std::function<void(std::string_view)> show,
+                  std::vector<std::string> plugin_folders)
+      : program_(std::move(program)), show_(std::move(show)), plugins_(std::move(plugin_folders)) {}
 
   slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path);
 
@@ -31,6 +32,7 @@ private:
   slvm::Result<std::string> compile(const std::string& file, const std::string& name,
                                     const std::vector<std::string>& path);
 
+  std::string program_;
   std::function<void(std::string_view)> show_;
   slvm::PluginFinder plugins_;
   // Made when the first source is met: most runs have compiled shaders only.
@@ -49,13 +51,13 @@ slvm::Result<std::string> CompilingLoader::load(const std::string& name,
       // Often it is of another renderer, and its source beside it.
       auto source = as_it_is ? std::nullopt : find_file(name + ".sl", path);
       if (!source) return bytes; // whoever loads it says what is wrong
-      show_(fmt::format("slrender: warning: {}: {}; {} is compiled instead\n", *compiled, program.error(),
+      show_(fmt::format("{}: warning: {}: {}; {} is compiled instead\n", program_, *compiled, program.error(),
                         *source));
       return compile(*source, name, path);
     }
     std::string warning = slvm::stale_warning(*program, *compiled, !as_it_is);
     if (warning.empty()) return bytes;
-    show_(fmt::format("slrender: warning: {}\n", warning));
+    show_(fmt::format("{}: warning: {}\n", program_, warning));
     if (as_it_is) return bytes;
     return compile(slvm::find_source(*program, *compiled, program->source_name), name, path);
   }
@@ -96,12 +98,13 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
 
 } // namespace
 
-ShaderLoader make_compiling_loader(std::function<void(std::string_view)> show,
+ShaderLoader make_compiling_loader(std::string program, std::function<void(std::string_view)> show,
                                    std::vector<std::string> plugin_folders) {
-  auto loader = std::make_shared<CompilingLoader>(std::move(show), std::move(plugin_folders));
+  auto loader =
+      std::make_shared<CompilingLoader>(std::move(program), std::move(show), std::move(plugin_folders));
   return [loader](const std::string& name, const std::vector<std::string>& path) {
     return loader->load(name, path);
   };
 }
 
-} // namespace render::tools
+} // namespace render::setup
