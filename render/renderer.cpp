@@ -79,6 +79,12 @@ void Renderer::Impl::render(Scene& frame) {
   TextureMaps textures(texture_settings(frame.options));
   SceneServices services(frame, shaders, textures, settings.print);
   VmShading shading(machine, shaders, services);
+  s.make_content = [&](const Procedural& p, float area) {
+    SceneContent content = interpreter.make_content(p, area);
+    shaders.add(content.primitives);
+    services.add_spaces(content.spaces);
+    return content;
+  };
   DepthMask mask;
   if (load_mask(frame.options, mask)) s.mask = &mask;
   FrameReport& report = statistics.report;
