@@ -79,10 +79,10 @@ public:
   /// New light for the same points, in the cloud's order.
   void set_irradiance(std::span<const Color> irradiance);
 
-  /// M, radiant exitance by diffusion at each x [power/length^2]: the sum of Fdt Rd(|x - P|) E A (2002, eq 13; as
-  /// printed it divides by alpha' where the dipole source already has it). As radiance: exitant_radiance(), in
-  /// which Fdt cancels, as it should, for what it stands for is the transmittance from outside; without Fresnel
-  /// terms M/(pi Fdt).
+  /// M, radiant exitance by diffusion at each x [power/length^2]: the sum of Fdt Rd(|x - P|) E A (2002, eq
+  /// 13; as printed it divides by alpha' where the dipole source already has it). As radiance:
+  /// exitant_radiance(), in which Fdt cancels, as it should, for what it stands for is the transmittance from
+  /// outside; without Fresnel terms M/(pi Fdt).
   void exitance(const DiffusionMaterial& material, std::span<const Vec3> x, const LookupOptions& options,
                 std::span<Color> out, LookupCount* count = nullptr) const;
   Color exitance(const DiffusionMaterial& material, Vec3 x, const LookupOptions& options = {}) const;

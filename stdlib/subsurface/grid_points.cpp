@@ -1,11 +1,13 @@
 #include "stdlib/subsurface/grid_points.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace subsurface {
 
 void append_grid(PointCloud& cloud, const GridView& grid) {
+  assert(grid.position.size() >= grid.nu * grid.nv);
   for (size_t v = 0; v + 1 < grid.nv; ++v)
     for (size_t u = 0; u + 1 < grid.nu; ++u) {
       const size_t a = v * grid.nu + u, b = a + 1, c = a + grid.nu, d = c + 1;

@@ -4,6 +4,7 @@
 #include "stdlib/subsurface/ply.h"
 
 #include <algorithm>
+#include <cassert>
 #include <fmt/format.h>
 #include <numeric>
 
@@ -22,6 +23,7 @@ double TriangleMesh::total_area() const {
 }
 
 void append_grid(TriangleMesh& mesh, size_t nu, size_t nv, std::span<const Vec3> points) {
+  assert(points.size() >= nu * nv);
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), points.begin(), points.end());
   for (size_t v = 0; v + 1 < nv; ++v)

@@ -63,7 +63,7 @@ void ScatterGrid::forget_grid() {
       map_->release(sample, owner_);
   near_.clear(), ends_.clear(), required_.clear(), foreign_.clear(), in_flight_.clear(),
       foreign_seen_.clear();
-  handed_out_ = 0;
+  handed_out_ = listed_ = 0;
   map_.reset();
 }
 
@@ -76,20 +76,27 @@ slvm::Result<bool> ScatterGrid::read_map(const std::string& name) {
 }
 
 uint32_t ScatterGrid::add_grid_point(Vec3 P, float D) {
+  constexpr size_t kMostListed = size_t{1} << 24;
   const auto index = static_cast<uint32_t>(ends_.size());
+  const bool listed = listed_ == index && near_.size() < kMostListed;
   if (map_ && D > 0 && is_finite(P))
     map_->map().octree().for_each_within(P, D, [&](uint32_t sample, float) {
-      near_.push_back(sample);
-      switch (map_->claim(sample, owner_)) {
-      case LitMap::Claim::kMine: required_.push_back(sample); break;
-      case LitMap::Claim::kMineAlready:
-      case LitMap::Claim::kLit: break;
-      case LitMap::Claim::kOthers:
-        if (foreign_seen_.insert(sample).second) foreign_.push_back(sample);
-      }
+      if (listed) near_.push_back(sample);
+      need(sample);
     });
   ends_.push_back(near_.size());
+  listed_ += listed;
   return index;
+}
+
+void ScatterGrid::need(uint32_t sample) {
+  switch (map_->claim(sample, owner_)) {
+  case LitMap::Claim::kMine: required_.push_back(sample); break;
+  case LitMap::Claim::kMineAlready:
+  case LitMap::Claim::kLit: break;
+  case LitMap::Claim::kOthers:
+    if (foreign_seen_.insert(sample).second) foreign_.push_back(sample);
+  }
 }
 
 bool ScatterGrid::next_sample(size_t& sample) {
@@ -128,14 +135,18 @@ Color ScatterGrid::scatter(uint32_t index, Vec3 P, Vec3 N, float D, Color tint) 
   Color sum;
   if (!map_ || index >= ends_.size() || !(D > 0)) return sum;
   const ScatterMap& map = map_->map();
-  for (size_t k = index ? ends_[index - 1] : 0; k < ends_[index]; ++k) {
-    const uint32_t sample = near_[k];
-    if (!map_->is_lit(sample)) continue; // the shader left the loop early
+  auto add = [&](uint32_t sample) {
+    if (!map_->is_lit(sample)) return; // the shader left the loop early
     const Vec3 Pi = map.position(sample);
     const float weight = map.area(sample) * scatter_transmission(length(P - Pi), D) *
                          bounce_attenuation(P, Pi, N, map.normal(sample), D);
     sum += map_->irradiance(sample) * weight;
-  }
+  };
+  if (index >= listed_)
+    map.octree().for_each_within(P, D, [&](uint32_t sample, float) { add(sample); });
+  else
+    for (size_t k = index ? ends_[index - 1] : 0; k < ends_[index]; ++k)
+      add(near_[k]);
   return sum * tint;
 }
 

@@ -105,12 +105,14 @@ public:
 private:
   void forget_grid();
   bool next_sample(size_t& sample);
+  void need(uint32_t sample);
 
   ScatterMaps& maps_;
   uint32_t owner_;
   std::shared_ptr<LitMap> map_;
   std::vector<uint32_t> near_; // samples near each point, one point after another
   std::vector<size_t> ends_;   // where in near_ those of each point end
+  size_t listed_ = 0; // points from here on are not in near_, which would be too long: they search anew
   std::deque<uint32_t> required_, foreign_, in_flight_;
   std::unordered_set<uint32_t> foreign_seen_;
   size_t handed_out_ = 0;

@@ -211,6 +211,23 @@ TEST(Scatter, GridsThatBreakOffLeaveNothingBehind) {
   EXPECT_EQ(count, 100u);
 }
 
+TEST(Scatter, PointsWithVeryManySamplesAreNotListed) {
+  // 200 points that each see 100 000 samples: the first 168 fill the list, the others search again.
+  const PointCloud cloud = ball(100000, 1);
+  ScatterMaps maps([&](const std::string&) { return cloud; });
+  ScatterGrid grid(maps);
+  ASSERT_TRUE(grid.read_map("skin"));
+  for (int i = 0; i < 200; ++i)
+    grid.add_grid_point({0, 0, 1}, 5);
+  Vec3 P, N;
+  float area;
+  while (grid.get_sample(P, N, area))
+    grid.save_irradiance({1, 1, 1});
+  const Color first = grid.scatter(0, {0, 0, 1}, {0, 0, 1}, 5, {1, 1, 1});
+  EXPECT_GT(first.x, 0);
+  EXPECT_EQ(grid.scatter(199, {0, 0, 1}, {0, 0, 1}, 5, {1, 1, 1}), first);
+}
+
 TEST(Scatter, SeveralMapsAndThoseThatAreMissing) {
   int reads = 0;
   ScatterMaps maps([&](const std::string& name) -> slvm::Result<PointCloud> {
