@@ -39,10 +39,12 @@ ALLOWED = {
     "render/ri": ["render", "public"],
     "render/tools": ["render", "slc", "public"],
     "stdlib": [],
-    "stdlib/dso": ["public"],
+    "stdlib/subsurface": ["slvm/support"],
+    "stdlib/dso": ["public", "stdlib/subsurface"],
+    "stdlib/tools": ["stdlib/subsurface", "slvm/support"],
     "python": ["slc", "public"],
     "docs": ["slvm", "slc/diag", "render/rib"],
-    "tests": ["slc", "slvm", "render", "tests"],
+    "tests": ["slc", "slvm", "render", "stdlib/subsurface", "tests"],
     "tests/external": ["slc", "public"],
 }
 # The only folders that may use these libraries.
@@ -54,7 +56,7 @@ OUTSIDE = {
     r"hwy/": ["slvm/wide", "slvm/kernels", "tests/bench", "tests/unit/kernels"],
     r"sleef": ["slvm/wide", "slvm/kernels", "tests/unit/kernels"],
     r"opensubdiv/": ["render/prims"],
-    r"CLI/": ["slc/tools", "slvm/tools", "render/tools"],
+    r"CLI/": ["slc/tools", "slvm/tools", "render/tools", "stdlib/tools"],
 }
 # Headers that sources of plug-ins include by their bare names.
 SDK, PLUGINS = "slvm/plugin/sdk/", ("slvm/plugin/sdk", "tests/plugins", "docs/tour")

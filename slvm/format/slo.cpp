@@ -3,15 +3,12 @@
 
 #include "slvm/format/slo_generated.h"
 #include "slvm/format/verify.h"
-#include "slvm/support/whole_file.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace slvm {
 namespace {
@@ -325,24 +322,6 @@ Result<Program> read_slo(std::span<const std::byte> bytes) {
   if (const char* error = read_shader(*root, program)) return Error{fmt::format("damaged: {}", error)};
   if (std::string error = verify_program(program); !error.empty()) return Error{"damaged: " + error};
   return program;
-}
-
-Result<std::vector<std::byte>> read_file(const std::string& path) {
-  std::error_code ec;
-  auto size = std::filesystem::file_size(path, ec);
-  if (ec) return Error{fmt::format("cannot open '{}': {}", path, ec.message())};
-  if (size > kMaxSloBytes) return Error{fmt::format("'{}' is larger than {} MB", path, kMaxSloBytes >> 20)};
-  std::ifstream in(path, std::ios::binary);
-  std::vector<std::byte> bytes(size);
-  if (!in || !in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-    return Error{fmt::format("cannot read '{}'", path)};
-  return bytes;
-}
-
-Result<bool> write_file(const std::string& path, std::span<const std::byte> bytes) {
-  std::string why = write_whole_file(path, bytes.data(), bytes.size());
-  if (!why.empty()) return Error{fmt::format("cannot write '{}': {}", path, why)};
-  return true;
 }
 
 } // namespace slvm

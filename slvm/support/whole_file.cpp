@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <thread>
 #include <unistd.h>
 
 namespace slvm {
@@ -35,9 +36,9 @@ bool is_left_over(std::string_view name, std::string_view beginning) {
   name.remove_prefix(beginning.size());
   long process = 0;
   auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), process);
-  // Libraries may add something of their own.
-  bool ours = error == std::errc() && process > 0 &&
-              name.substr(static_cast<size_t>(end - name.data())).starts_with(kEnd);
+  // The thread follows; libraries may add something of their own behind the end.
+  bool ours = error == std::errc() && process > 0 && end != name.data() + name.size() && *end == '-' &&
+              name.find(kEnd) != name.npos;
   return ours && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
 }
 
@@ -54,7 +55,9 @@ void remove_left_overs(const fs::path& folder, const std::string& beginning) {
 
 WholeFile::WholeFile(std::string name) : name_(std::move(name)) {
   std::string beginning = fmt::format("{}.{}-", name_, machine());
-  temporary_ = fmt::format("{}{}.part", beginning, ::getpid());
+  // Threads that write the same file do not meet in the temporary one.
+  temporary_ = fmt::format("{}{}-{:x}.part", beginning, ::getpid(),
+                           std::hash<std::thread::id>()(std::this_thread::get_id()));
   fs::path path(beginning);
   remove_left_overs(path.has_parent_path() ? path.parent_path() : fs::path("."), path.filename().string());
 }

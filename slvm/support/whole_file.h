@@ -16,7 +16,7 @@ public:
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  /// Where to write: NAME.MACHINE-PROCESS.part, in the folder of the file.
+  /// Where to write: NAME.MACHINE-PROCESS-THREAD.part, in the folder of the file.
   const std::string& temporary() const { return temporary_; }
   /// Gives it its name, in place of what was there. "": done, else why not.
   std::string commit();
