@@ -31,7 +31,7 @@ struct Renderer::Impl {
     interpreter.override_options = settings.override_options;
     interpreter.allow_programs = settings.allow_programs;
     interpreter.program_limits.seconds = settings.program_seconds;
-    interpreter.plug_in_folders = settings.plug_in_folders;
+    interpreter.procedural_folders = settings.procedural_folders;
     interpreter.around_plug_in = settings.around_plug_in;
     interpreter.make_map = make_map;
   }

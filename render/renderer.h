@@ -33,7 +33,7 @@ struct RendererSettings {
   std::vector<std::string> plugin_folders;
   /// The only folders plug-ins that make geometry are loaded from (Procedural "DynamicLoad"), and what is called in place
   /// of their functions: see Interpreter::around_plug_in.
-  std::vector<std::string> plug_in_folders;
+  std::vector<std::string> procedural_folders;
   std::function<void(slvm::SourceRange procedural, const std::function<void()>& functions)> around_plug_in;
   ShaderLoader shader_loader = load_compiled_shader;
   /// Called with each frame's options at WorldBegin, after the file's own: command-line overrides.

@@ -89,7 +89,7 @@ struct Owned {
 RendererSettings settings(AroundPlugIn around_plug_in, std::function<void()> flush) {
   RendererSettings s;
   s.around_plug_in = std::move(around_plug_in);
-  s.plug_in_folders = render::setup::plug_in_folders("", "ANEMONE_PROCEDURALS");
+  s.procedural_folders = render::setup::procedural_folders("", "ANEMONE_PROCEDURALS");
   s.shader_loader = render::setup::make_compiling_loader(
       "ri", [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
   s.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };

@@ -40,7 +40,7 @@ std::vector<std::string> search_path(const std::string& option, const char* vari
   return option.empty() ? standard : parse_search_path(option, {}, standard);
 }
 
-std::vector<std::string> plug_in_folders(const std::string& option, const char* variable) {
+std::vector<std::string> procedural_folders(const std::string& option, const char* variable) {
   if (option.empty() && !std::getenv(variable)) return {};
   return search_path(option, variable, {});
 }

@@ -16,6 +16,6 @@ std::vector<std::string> search_path(const std::string& option, const char* vari
                                      const std::vector<std::string>& installed);
 
 /// The folders plug-ins may come from: the same path if the user gave one, else none.
-std::vector<std::string> plug_in_folders(const std::string& option, const char* variable);
+std::vector<std::string> procedural_folders(const std::string& option, const char* variable);
 
 } // namespace render::setup

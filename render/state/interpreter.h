@@ -64,7 +64,7 @@ public:
   bool allow_own_programs = false;
   ProgramLimits program_limits;
   /// The only folders from which DynamicLoad loads plug-ins: those the user named, never a scene's.
-  std::vector<std::string> plug_in_folders;
+  std::vector<std::string> procedural_folders;
   /// Called instead of a plug-in's functions, which are its second argument: it leads what they request here.
   std::function<void(slvm::SourceRange procedural, const std::function<void()>& functions)> around_plug_in;
   /// Comments of files read from now on, without the first #.

@@ -182,7 +182,7 @@ void Interpreter::run_plug_in(const Procedural& p, float area) {
   auto it = plug_ins_.find(name);
   if (it == plug_ins_.end()) {
     it = plug_ins_.emplace(name, nullptr).first;
-    auto loaded = load_plug_in(name, plug_in_folders, scene_.options.search_paths["procedural"]);
+    auto loaded = load_plug_in(name, procedural_folders, scene_.options.search_paths["procedural"]);
     if (!loaded) {
       report(p, loaded.error());
       return;

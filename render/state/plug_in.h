@@ -8,6 +8,7 @@
 #pragma once
 
 #include "slvm/support/result.h"
+#include "slvm/support/shared_library.h"
 
 #include <memory>
 #include <string>
@@ -19,18 +20,15 @@ class PlugIn {
 public:
   /// Opens the file. The error names what is missing in it.
   static slvm::Result<std::shared_ptr<PlugIn>> open(const std::string& file);
-  ~PlugIn();
-  PlugIn(const PlugIn&) = delete;
-  PlugIn& operator=(const PlugIn&) = delete;
 
   /// ConvertParameters, Subdivide and Free, which make requests by the C interface. Empty, or what went
   /// wrong.
   std::string make(std::string parameters, float detail) const;
 
 private:
-  explicit PlugIn(void* library) : library_(library) {}
+  explicit PlugIn(std::shared_ptr<const slvm::SharedLibrary> library) : library_(std::move(library)) {}
 
-  void* library_;
+  std::shared_ptr<const slvm::SharedLibrary> library_;
   void* (*convert_parameters_)(char*) = nullptr;
   void (*subdivide_)(void*, float) = nullptr;
   void (*free_)(void*) = nullptr;

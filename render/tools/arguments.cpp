@@ -140,7 +140,7 @@ Arguments parse_arguments(int argc, char** argv) {
   out.shader_path = setup::search_path(shaders, "ANEMONE_SHADERS", setup::standard_shader_folders());
   out.archive_path = setup::search_path(archives, "ANEMONE_ARCHIVES", {});
   out.procedural_path = setup::search_path(procedurals, "ANEMONE_PROCEDURALS", {});
-  out.plug_in_folders = setup::plug_in_folders(procedurals, "ANEMONE_PROCEDURALS");
+  out.procedural_folders = setup::procedural_folders(procedurals, "ANEMONE_PROCEDURALS");
   out.plugin_folders = slvm::plugin_folders(plugins);
   return out;
 }

@@ -110,7 +110,7 @@ int run(const Arguments& arguments) {
   settings.preview = arguments.preview;
   settings.program_seconds = arguments.program_seconds;
   settings.plugin_folders = arguments.plugin_folders;
-  settings.plug_in_folders = arguments.plug_in_folders;
+  settings.procedural_folders = arguments.procedural_folders;
   render::ri::PlugInCalls plug_in_calls;
   settings.around_plug_in = plug_in_calls.around();
   settings.shader_loader = render::setup::make_compiling_loader(
