@@ -178,7 +178,11 @@ void Checker::finish_call(ExprPtr& e, Type wanted) {
       if (r.viable[i].candidate.result() == Type::kFloat) chosen = r.viable[i].candidate;
     report(diags_, Msg::kAmbiguousResult, call.name_range, call.name);
   }
-  if (chosen.plugin) let_store(chosen, call);
+  if (chosen.plugin) {
+    let_store(chosen, call);
+    if (!called_plugins_.add(chosen.plugin))
+      report(diags_, Msg::kTooManyPlugins, call.name_range, slvm::PluginShadeops::kMost);
+  }
   call.function = chosen.function;
   call.shadeop = chosen.row;
   call.plugin = chosen.plugin;

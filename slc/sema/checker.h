@@ -153,6 +153,7 @@ private:
   const slvm::PluginSource* plugins_;
   std::map<std::string, slvm::PluginSource::Functions> plugin_functions_; ///< by name, as far as known
   std::set<std::string> searched_;
+  slvm::PluginShadeops called_plugins_; ///< no more than a compiled shader can name
   std::map<std::string, std::vector<std::string>> plugin_trouble_; ///< what was wrong with libraries, by name
   Scopes scopes_;
   Usage usage_;

@@ -58,7 +58,7 @@ void call_plugin(const GridCall& call, HostedFunction& function) {
   const std::vector<uint32_t> points = active_points(call, operands);
   if (points.empty()) return;
   PluginThread& thread = *call.run.state.plugins;
-  std::string error = function.home->broken;
+  std::string error = function.home->broken();
   if (error.empty()) error = thread.host().prepare(function);
   if (error.empty()) {
     std::unique_lock turn(function.home->turn, std::defer_lock);

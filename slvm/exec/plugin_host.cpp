@@ -161,7 +161,7 @@ std::string PluginHost::prepare(HostedFunction& function) {
 
 // The functions of libraries that take a context; "" or what went wrong.
 std::string PluginHost::call_void(HostedLibrary& library, void* function, bool guarded) {
-  if (!function || !library.broken.empty()) return library.broken;
+  if (std::string why = library.broken(); !function || !why.empty()) return why;
   context_.name = library.library->name();
   enter(library, &context_);
   auto call = [&] { reinterpret_cast<VoidFunction>(function)(&context_); };
@@ -172,18 +172,18 @@ std::string PluginHost::call_void(HostedLibrary& library, void* function, bool g
 
 std::string PluginHost::prepare_locked(HostedFunction& function) {
   HostedLibrary& home = *function.home;
-  if (!home.broken.empty()) return home.broken;
+  if (std::string why = home.broken(); !why.empty()) return why;
   if (function.ready) return "";
   if (function.entry.form == PluginForm::kGrid) {
     std::string error;
     if (!home.initialised) {
       error = call_void(home, home.library->library_init(), true);
-      if (!error.empty()) return home.broken = "in the library's init " + error;
+      if (!error.empty()) return home.give_up("in the library's init " + error);
       home.initialised = true;
       initialised_.push_back(&home);
     }
     for (void* step : {function.entry.begin, function.entry.init})
-      if (error = call_void(home, step, true); !error.empty()) return home.broken = "in its init " + error;
+      if (error = call_void(home, step, true); !error.empty()) return home.give_up("in its init " + error);
     prepared_.push_back(&function);
   }
   function.ready = true;
@@ -219,7 +219,7 @@ PluginThread::~PluginThread() {
     InitData& init = inits_.back();
     const PluginEntry& entry = init.function->entry;
     HostedLibrary& home = *init.function->home;
-    if (!init.error.empty() || !entry.shutdown || !home.broken.empty()) continue;
+    if (!init.error.empty() || !entry.shutdown || !home.broken().empty()) continue;
     std::unique_lock turn(home.turn, std::defer_lock);
     if (!entry.thread_safe) turn.lock();
     context_.call = nullptr;
@@ -240,7 +240,7 @@ bool PluginThread::init_data(HostedFunction& function, void*& data, std::string&
       init.error = call_guarded([&] {
         init.data = reinterpret_cast<PointInit>(function.entry.init)(static_cast<int>(number_), nullptr);
       });
-      if (init.error.starts_with("it crashed")) home.broken = "in its init " + init.error;
+      if (init.error.starts_with("it crashed")) home.give_up("in its init " + init.error);
     }
   }
   const InitData& init = inits_[it->second];

@@ -25,7 +25,21 @@ struct HostedLibrary {
   std::shared_ptr<const PluginLibrary> library;
   std::mutex turn; ///< held during calls of functions that are not thread-safe
   bool initialised = false;
-  std::string broken; ///< why it is not called any more; "" as long as it is
+
+  /// Why it is not called any more; "" as long as it is.
+  std::string broken() const {
+    std::lock_guard lock(state_);
+    return broken_;
+  }
+  const std::string& give_up(std::string why) {
+    std::lock_guard lock(state_);
+    if (broken_.empty()) broken_ = std::move(why);
+    return broken_;
+  }
+
+private:
+  mutable std::mutex state_;
+  std::string broken_;
 };
 
 /// A function that instances call.

@@ -89,6 +89,22 @@ TEST_F(PluginCompile, FunctionsThatCannotBeCalledSayWhy) {
                         "shaders cannot"));
 }
 
+TEST_F(PluginCompile, ThereAreBoundsToHowManyAreCalled) {
+  auto calls = [](unsigned count) { // each stores to other arguments
+    std::string text = "float a = 0; ";
+    for (unsigned i = 0; i < count; ++i) {
+      text += "pt_many(";
+      for (unsigned k = 0; k < 13; ++k)
+        text += std::string(k ? "," : "") + (i >> k & 1 ? "a" : "1");
+      text += ");\n";
+    }
+    return text;
+  };
+  EXPECT_FALSE(compile("surface s() { " + calls(4096) + " }").empty()) << diagnostics;
+  EXPECT_THAT(complaint(calls(4097)), HasSubstr("more than 4096 functions of plug-ins are called, counting what they are "
+                                                "let store to"));
+}
+
 // ---- Programs.
 
 struct PluginTools : slc_test::Tool {

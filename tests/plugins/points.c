@@ -110,3 +110,13 @@ SHADEOP(pt_count_v) {
 SHADEOP_SHUTDOWN(pt_count_shutdown) {
   free(initdata);
 }
+
+/* Many ways of being called. */
+SHADEOP_TABLE(pt_many) = {{"void pt_many_f(float, float, float, float, float, float, float, float, float, float, float, float, "
+                           "float)",
+                           "", ""},
+                          {""}};
+SHADEOP(pt_many_f) {
+  (void)initdata;
+  return argc != 14 || argv == NULL;
+}
