@@ -1,12 +1,13 @@
-// Output through OpenImageIO.
+// From finished pixels to image files: what each channel becomes, and where.
 #include "render/display/output.h"
 
 #include "render/display/channels.h"
 #include "render/display/quantize.h"
 #include "render/state/camera.h"
 #include "render/state/transforms.h"
+#include "render/texture/image_file.h"
+#include "render/texture/image_module.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <atomic>
@@ -27,18 +28,23 @@ struct Format {
   std::string plugin, extension;
 };
 
-/// The OpenImageIO format of a Display type. Interactive types of other renderers become files.
+/// The format of a Display type. Interactive types of other renderers become files.
 slvm::Result<Format> choose_format(const DisplayRequest& d) {
   std::string extension = fs::path(d.name).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
-  auto known = [](const std::string& name) { return OIIO::ImageOutput::create(name) != nullptr; };
+  auto known = [](const std::string& name) {
+    if (name == "tif" || name == "tiff" || name == "png") return true;
+    const ImageModule& module = image_module();
+    return module.problem.empty() && module.knows_format(name);
+  };
   const std::string& t = d.type;
   if (t == "tiff" || t == "tif") return Format{"tiff", "tif"};
   if (t == "png") return Format{"png", "png"};
   if (t == "openexr" || t == "exr") return Format{"openexr", "exr"};
   if (t == "zfile" || t == "shadow") return Format{"tiff", "z"};
   if (t == "file" || t == "framebuffer" || t == "it") {
-    if (!extension.empty() && known(extension)) return Format{extension, extension};
+    if (!extension.empty() && known(extension))
+      return Format{extension == "tif" ? "tiff" : extension, extension};
     return Format{"tiff", "tif"};
   }
   if (known(t)) return Format{t, t};
@@ -49,14 +55,14 @@ slvm::Result<Format> choose_format(const DisplayRequest& d) {
 }
 
 /// What one channel becomes: quantised integers or floats.
-OIIO::TypeDesc pixel_type(const Quantization& q, const std::string& plugin) {
+PixelType pixel_type(const Quantization& q, const std::string& plugin) {
   bool integers_only = plugin == "png" || plugin == "jpeg" || plugin == "bmp" || plugin == "targa";
   bool floats_only = plugin == "openexr" || plugin == "hdr";
-  if (floats_only || (q.is_float() && !integers_only)) return OIIO::TypeDesc::FLOAT;
-  if (q.is_float()) return OIIO::TypeDesc::UINT16;
-  if (q.min >= 0 && q.max <= 255) return OIIO::TypeDesc::UINT8;
-  if (q.min >= 0 && q.max <= 65535) return OIIO::TypeDesc::UINT16;
-  return OIIO::TypeDesc::FLOAT;
+  if (floats_only || (q.is_float() && !integers_only)) return PixelType::kFloat;
+  if (q.is_float()) return PixelType::kShort;
+  if (q.min >= 0 && q.max <= 255) return PixelType::kByte;
+  if (q.min >= 0 && q.max <= 65535) return PixelType::kShort;
+  return PixelType::kFloat;
 }
 
 class Writer {
@@ -68,7 +74,7 @@ public:
   slvm::Result<std::string> write(const DisplayRequest& d);
 
 private:
-  void fill_spec(OIIO::ImageSpec& spec, const std::vector<FileChannel>& channels) const;
+  void describe(ImageFile& file, const std::vector<FileChannel>& channels) const;
   float value(const FileChannel& channel, const DisplaySettings& settings, int x, int y) const;
   template <class T>
   std::vector<std::byte> pack(const std::vector<FileChannel>& channels, const DisplaySettings& settings,
@@ -80,26 +86,23 @@ private:
   const std::vector<AovChannel>& aovs_;
 };
 
-void Writer::fill_spec(OIIO::ImageSpec& spec, const std::vector<FileChannel>& channels) const {
-  spec.x = image_.rect.x0;
-  spec.y = image_.rect.y0;
-  spec.full_width = options_.xres * (options_.subpixel ? options_.xsamples : 1);
-  spec.full_height = options_.yres * (options_.subpixel ? options_.ysamples : 1);
-  spec.channelnames.clear();
-  for (size_t i = 0; i < channels.size(); ++i) {
-    spec.channelnames.push_back(channels[i].name);
-    if (channels[i].name == "A") spec.alpha_channel = static_cast<int>(i);
-    if (channels[i].name == "Z") spec.z_channel = static_cast<int>(i);
-  }
-  spec.attribute("Software", "Anemone slrender");
-  spec.attribute("PixelAspectRatio", options_.pixel_aspect);
+void Writer::describe(ImageFile& file, const std::vector<FileChannel>& channels) const {
+  file.width = image_.rect.width();
+  file.height = image_.rect.height();
+  file.x = image_.rect.x0;
+  file.y = image_.rect.y0;
+  file.full_width = options_.xres * (options_.subpixel ? options_.xsamples : 1);
+  file.full_height = options_.yres * (options_.subpixel ? options_.ysamples : 1);
+  for (const FileChannel& channel : channels)
+    file.channels.push_back(channel.name);
+  file.pixel_aspect = options_.pixel_aspect;
   Camera camera(options_);
   // To the picture, x from -1 to 1 left to right, y from -1 to 1 upwards, as textureinfo() and shadow() want
   // it.
   Matrix4 to_screen =
       scene_.world_to_camera * camera.to_ndc() * translation({-0.5f, -0.5f, 0}) * scaling({2, -2, 1});
-  spec.attribute("worldtocamera", OIIO::TypeMatrix, scene_.world_to_camera.m.data());
-  spec.attribute("worldtoscreen", OIIO::TypeMatrix, to_screen.m.data());
+  std::copy_n(scene_.world_to_camera.m.data(), 16, file.world_to_camera.begin());
+  std::copy_n(to_screen.m.data(), 16, file.world_to_screen.begin());
 }
 
 /// The frame's exposure is in the standard channels already; the others get theirs here.
@@ -152,40 +155,33 @@ slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
     if (settings->quantize) *q = *settings->quantize;
     if (settings->dither) q->dither = *settings->dither;
   }
-  OIIO::TypeDesc type = pixel_type(is_depth ? depth : color, format->plugin);
-  if (type == OIIO::TypeDesc::FLOAT && !color.set) color.one = 0;
-  if (type == OIIO::TypeDesc::UINT16 && color.is_float()) color = {65535, 0, 65535, color.dither, true, 0};
-  if (type != OIIO::TypeDesc::FLOAT && depth.is_float()) depth = color;
+  PixelType type = pixel_type(is_depth ? depth : color, format->plugin);
+  if (type == PixelType::kFloat && !color.set) color.one = 0;
+  if (type == PixelType::kShort && color.is_float()) color = {65535, 0, 65535, color.dither, true, 0};
+  if (type != PixelType::kFloat && depth.is_float()) depth = color;
 
-  OIIO::ImageSpec spec(image_.rect.width(), image_.rect.height(), static_cast<int>(channels.size()), type);
-  fill_spec(spec, channels);
-  // Rendered noise hardly gets smaller by trying harder.
-  spec.attribute("tiff:zipquality", 2);
-  spec.attribute("png:compressionLevel", 2);
+  ImageFile file;
+  describe(file, channels);
+  file.format = format->plugin;
+  file.type = type;
   if (auto it = d.params.find("compression"); it != d.params.end() && !it->second.strings.empty())
-    spec.attribute("compression", it->second.strings[0]);
-  std::vector<std::byte> pixels;
-  if (type == OIIO::TypeDesc::UINT8)
-    pixels = pack<uint8_t>(channels, *settings, color, depth);
-  else if (type == OIIO::TypeDesc::UINT16)
-    pixels = pack<uint16_t>(channels, *settings, color, depth);
+    file.compression = it->second.strings[0];
+  if (type == PixelType::kByte)
+    file.pixels = pack<uint8_t>(channels, *settings, color, depth);
+  else if (type == PixelType::kShort)
+    file.pixels = pack<uint16_t>(channels, *settings, color, depth);
   else
-    pixels = pack<float>(channels, *settings, color, depth);
+    file.pixels = pack<float>(channels, *settings, color, depth);
 
-  auto out = OIIO::ImageOutput::create(format->plugin);
-  if (!out) return slvm::Error{OIIO::geterror()};
-  std::string temporary = fmt::format("{}.{}.part", name, ::getpid());
-  bool ok = out->open(temporary, spec) && out->write_image(type, pixels.data()) && out->close();
+  file.path = fmt::format("{}.{}.part", name, ::getpid());
+  std::string why = write_image_file(file);
   std::error_code error;
-  if (!ok) {
-    std::string why = out->geterror();
-    fs::remove(temporary, error);
-    return slvm::Error{fmt::format("cannot write \"{}\": {}", name, why)};
+  if (why.empty()) {
+    fs::rename(file.path, name, error);
+    if (!error) return name;
+    why = error.message();
   }
-  fs::rename(temporary, name, error);
-  if (!error) return name;
-  std::string why = error.message();
-  fs::remove(temporary, error);
+  fs::remove(file.path, error);
   return slvm::Error{fmt::format("cannot write \"{}\": {}", name, why)};
 }
 
