@@ -1,5 +1,5 @@
-// The functions of the module anemone_images.so, as render/texture/image_module.h describes them. Nothing else of the
-// renderer uses OpenImageIO.
+// The functions of the module anemone_images.so, as render/texture/image_module.h describes them. Nothing
+// else of the renderer uses OpenImageIO.
 #pragma once
 
 #include "render/texture/image_module.h"

@@ -21,7 +21,8 @@ bool knows_format(const std::string& name) {
 }
 
 std::string write_image(const ImageFile& image) {
-  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()), type_of(image.type));
+  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
+                       type_of(image.type));
   spec.x = image.x;
   spec.y = image.y;
   spec.full_width = image.full_width;
@@ -39,7 +40,8 @@ std::string write_image(const ImageFile& image) {
   if (!image.compression.empty()) spec.attribute("compression", image.compression);
   auto out = OIIO::ImageOutput::create(image.format);
   if (!out) return OIIO::geterror();
-  if (out->open(image.path, spec) && out->write_image(spec.format, image.pixels.data()) && out->close()) return {};
+  if (out->open(image.path, spec) && out->write_image(spec.format, image.pixels.data()) && out->close())
+    return {};
   return out->geterror();
 }
 

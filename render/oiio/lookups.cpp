@@ -141,10 +141,11 @@ public:
   explicit Lookups(float memory_megabytes) : system_(memory_megabytes) {}
 
   std::string texture(const std::string& file, const TextureLookup& l) override {
-    return look_up(system_, file, l, OIIO::TextureOpt::WrapDefault, OIIO::TextureOpt::WrapDefault, [&](size_t i) {
-      return Footprint{l.centre[0][i],  l.centre[1][i],  l.along_u[0][i],
-                       l.along_u[1][i], l.along_v[0][i], l.along_v[1][i]};
-    });
+    return look_up(system_, file, l, OIIO::TextureOpt::WrapDefault, OIIO::TextureOpt::WrapDefault,
+                   [&](size_t i) {
+                     return Footprint{l.centre[0][i],  l.centre[1][i],  l.along_u[0][i],
+                                      l.along_u[1][i], l.along_v[0][i], l.along_v[1][i]};
+                   });
   }
   std::string environment(const std::string& file, const TextureLookup& l) override {
     return look_up(system_, file, l, OIIO::TextureOpt::WrapPeriodic, OIIO::TextureOpt::WrapClamp,
@@ -152,32 +153,31 @@ public:
   }
   bool info(const std::string& file, std::string_view field, const slvm::Matrix4& current_to_world,
             Value& out) override {
-  OIIO::ImageSpec spec;
-  if (!system_->get_imagespec(OIIO::ustring(file), 0, spec)) {
-    system_->geterror();
-    return false;
+    OIIO::ImageSpec spec;
+    if (!system_->get_imagespec(OIIO::ustring(file), 0, spec)) {
+      system_->geterror();
+      return false;
+    }
+    slvm::Matrix4 m;
+    if (field == "resolution") {
+      out = {Type::kFloat, 2, {static_cast<float>(spec.width), static_cast<float>(spec.height)}, {}};
+    } else if (field == "channels") {
+      out = {Type::kFloat, 0, {static_cast<float>(spec.nchannels)}, {}};
+    } else if (field == "type") {
+      std::string kind = spec.get_string_attribute("textureformat");
+      std::string name = kind == "Shadow"                ? "shadow"
+                         : kind.find("Env") != kind.npos ? "environment"
+                                                         : "texture";
+      out = {Type::kString, 0, {}, {name}};
+    } else if (field == "viewingmatrix" && read_matrix(spec, "worldtocamera", m)) {
+      out = matrix_value(current_to_world * m);
+    } else if (field == "projectionmatrix" && read_matrix(spec, "worldtoscreen", m)) {
+      out = matrix_value(current_to_world * m);
+    } else {
+      return false;
+    }
+    return true;
   }
-  slvm::Matrix4 m;
-  if (field == "resolution") {
-    out = {Type::kFloat, 2, {static_cast<float>(spec.width), static_cast<float>(spec.height)}, {}};
-  } else if (field == "channels") {
-    out = {Type::kFloat, 0, {static_cast<float>(spec.nchannels)}, {}};
-  } else if (field == "type") {
-    std::string kind = spec.get_string_attribute("textureformat");
-    std::string name = kind == "Shadow"                ? "shadow"
-                       : kind.find("Env") != kind.npos ? "environment"
-                                                       : "texture";
-    out = {Type::kString, 0, {}, {name}};
-  } else if (field == "viewingmatrix" && read_matrix(spec, "worldtocamera", m)) {
-    out = matrix_value(current_to_world * m);
-  } else if (field == "projectionmatrix" && read_matrix(spec, "worldtoscreen", m)) {
-    out = matrix_value(current_to_world * m);
-  } else {
-    return false;
-  }
-  return true;
-}
-
 
   std::pair<long long, long long> usage() override {
     int files = 0;

@@ -226,7 +226,7 @@ private:
   void points(const RequestCall&);
   void blobby(const RequestCall&);
   void trim_curve(const RequestCall&);
-  std::optional<bool> wraps(const RequestCall&, int i);
+  bool wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
   bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P);

@@ -27,9 +27,7 @@ void Interpreter::curves(const RequestCall& call) {
              fmt::format("unknown type \"{}\"; expected \"linear\" or \"cubic\"", call.text(0)));
     return;
   }
-  auto periodic = wraps(call, 2);
-  if (!periodic) return;
-  layout.periodic = *periodic;
+  layout.periodic = wraps(call, 2);
   layout.basis = attributes_->vbasis;
   std::span<const int> counts = call.integers(1);
   size_t points = 0, corners = 0;

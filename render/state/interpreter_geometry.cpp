@@ -178,9 +178,7 @@ void Interpreter::patch(const RequestCall& call) {
     d[side].points = d[side].order();
     d[side].basis = side == 0 ? attributes_->ubasis : attributes_->vbasis;
     if (!mesh) continue;
-    auto periodic = wraps(call, 2 + 2 * side);
-    if (!periodic) return;
-    d[side].periodic = *periodic;
+    d[side].periodic = wraps(call, 2 + 2 * side);
     d[side].points = call.integer(1 + 2 * side);
     std::string_view name = side == 0 ? "nu" : "nv";
     constexpr int kMostPoints = 1 << 20; // products stay ints
@@ -205,13 +203,16 @@ void Interpreter::patch(const RequestCall& call) {
   add_patch_mesh(d[0], d[1], P, vars, primitive_state(), scene_.primitives, weights);
 }
 
-/// Whether argument `i` says "periodic". Nothing, with a message: it says neither that nor "nonperiodic".
-std::optional<bool> Interpreter::wraps(const RequestCall& call, int i) {
+/// Whether argument `i` says "periodic". Other words than that and "nonperiodic" are reported; scenes that
+/// have them
+/// ("nowrap") mean the second.
+bool Interpreter::wraps(const RequestCall& call, int i) {
   const std::string& text = call.text(i);
-  if (text == "periodic" || text == "nonperiodic") return text == "periodic";
-  error_at(call.arguments[static_cast<size_t>(i)].where, call,
-           fmt::format("unknown wrap \"{}\"; expected \"periodic\" or \"nonperiodic\"", text));
-  return std::nullopt;
+  if (text != "periodic" && text != "nonperiodic")
+    error_at(
+        call.arguments[static_cast<size_t>(i)].where, call,
+        fmt::format("unknown wrap \"{}\"; expected \"periodic\" or \"nonperiodic\", which is taken", text));
+  return text == "periodic";
 }
 
 void Interpreter::geometry(const RequestCall& call) {

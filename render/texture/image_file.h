@@ -1,5 +1,5 @@
-// An image on its way to a file, and the ways there: TIFF and PNG by the libraries of these formats, the others by
-// OpenImageIO's module (image_module.h), which takes longer to load than most frames to render.
+// An image on its way to a file, and the ways there: TIFF and PNG by the libraries of these formats, the
+// others by OpenImageIO's module (image_module.h), which takes longer to load than most frames to render.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct ImageFile {
   std::vector<std::string> channels;   ///< "R", "G", "B", "A", "Z" and names of variables
   float pixel_aspect = 1;
   std::array<float, 16> world_to_camera{}, world_to_screen{}; ///< by rows
-  std::string texture_format;    ///< "Shadow" for a shadow map, else empty
+  std::string texture_format;                                 ///< "Shadow" for a shadow map, else empty
   std::vector<std::byte> pixels; ///< of `type`, channels of a pixel side by side, row by row from the top
 
   int channel(const std::string& name) const; ///< its place, or -1

@@ -13,7 +13,8 @@ ImageModule load() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   ImageModule module;
-  module.problem = "without anemone_images.so (OpenImageIO) there are no textures and only TIFF and PNG files";
+  module.problem =
+      "without anemone_images.so (OpenImageIO) there are no textures and only TIFF and PNG files";
   for (const char* place : {"anemone_images.so", "../lib/anemone/anemone_images.so"}) {
     const fs::path file = folder / place;
     if (!fs::exists(file, error)) continue;

@@ -1,6 +1,6 @@
-// What OpenImageIO does for the renderer: a module, anemone_images.so, since that library and the two hundred below
-// it take a fifth of a second and a hundred megabytes to load. It is loaded when it is first needed: for textures, and
-// for files other than TIFF and PNG.
+// What OpenImageIO does for the renderer: a module, anemone_images.so, since that library and the two hundred
+// below it take a fifth of a second and a hundred megabytes to load. It is loaded when it is first needed:
+// for textures, and for files other than TIFF and PNG.
 #pragma once
 
 #include "render/texture/make_maps.h"

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shadow map of a depth image in a TIFF file: the same numbers, called a shadow map. Lookups take the finest level
-/// only, so that no others are made.
+/// A shadow map of a depth image in a TIFF file: the same numbers, called a shadow map. Lookups take the
+/// finest level only, so that no others are made.
 std::string write_shadow(const DepthImage& depths, const std::string& shadow) {
   ImageFile file;
   file.path = shadow + "." + std::to_string(::getpid()) + ".part";
@@ -57,7 +57,8 @@ std::string make_latlong(const std::string& image, const std::string& texture, c
 std::string make_cube_environment(const std::array<std::string, 6>& faces, const std::string& texture,
                                   float fov, const MakeSettings& settings) {
   const ImageModule& module = image_module();
-  return module.problem.empty() ? module.make_cube_environment(faces, texture, fov, settings) : module.problem;
+  return module.problem.empty() ? module.make_cube_environment(faces, texture, fov, settings)
+                                : module.problem;
 }
 
 std::string make_shadow(const std::string& depths, const std::string& shadow) {

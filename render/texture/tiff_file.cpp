@@ -71,11 +71,13 @@ void set_channels(TIFF* t, const ImageFile& image) {
   const auto& names = image.channels;
   const bool colored = names.size() >= 3 && names[0] == "R" && names[1] == "G" && names[2] == "B";
   TIFFSetField(t, TIFFTAG_SAMPLESPERPIXEL, static_cast<uint16_t>(names.size()));
-  TIFFSetField(t, TIFFTAG_PHOTOMETRIC, colored || names.size() == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(t, TIFFTAG_PHOTOMETRIC,
+               colored || names.size() == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
   std::vector<uint16_t> others;
   for (size_t i = colored || names.size() == 3 ? 3 : 1; i < names.size(); ++i)
     others.push_back(names[i] == "A" ? EXTRASAMPLE_ASSOCALPHA : EXTRASAMPLE_UNSPECIFIED);
-  if (!others.empty()) TIFFSetField(t, TIFFTAG_EXTRASAMPLES, static_cast<uint16_t>(others.size()), others.data());
+  if (!others.empty())
+    TIFFSetField(t, TIFFTAG_EXTRASAMPLES, static_cast<uint16_t>(others.size()), others.data());
 }
 
 constexpr int kRows = 64; // of a strip

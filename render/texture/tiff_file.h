@@ -1,5 +1,5 @@
-// TIFF files by libtiff: pictures, depth images and shadow maps. Matrices and the size of the whole frame are in the
-// tags that Pixar registered for them.
+// TIFF files by libtiff: pictures, depth images and shadow maps. Matrices and the size of the whole frame are
+// in the tags that Pixar registered for them.
 #pragma once
 
 #include <string>

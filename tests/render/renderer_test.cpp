@@ -272,6 +272,22 @@ TEST_F(RendererTest, colours_that_are_not_numbers_are_reported_and_drawn_black) 
   EXPECT_EQ(value(8, 8, 3), 1);
 }
 
+TEST_F(RendererTest, a_surface_that_only_sets_oi_to_zero_makes_a_hole) {
+  shaders_["ring"] = "surface ring() { if (u < .5) Oi = 0; }";
+  shaders_["glow"] = "surface glow() { Ci = .25; Oi = 0; }";
+  shaders_["show"] = kShow;
+  const std::string sheet = "Patch \"bilinear\" \"P\" [-1 1 5 1 1 5 -1 -1 5 1 -1 5] ";
+  const std::string behind = "Color 0 0 1 Surface \"show\" Translate 0 0 9 Disk 0 20 360 WorldEnd";
+  EXPECT_EQ(render("WorldBegin Color 0 1 0 Surface \"ring\" " + sheet + behind), "");
+  EXPECT_EQ(value(3, 8, 1), 0); // through the hole
+  EXPECT_EQ(value(3, 8, 2), 1);
+  EXPECT_EQ(value(12, 8, 1), 1);
+  EXPECT_EQ(value(12, 8, 2), 0);
+  EXPECT_EQ(render("WorldBegin Color 0 1 0 Surface \"glow\" " + sheet + behind), "");
+  EXPECT_EQ(value(8, 8, 1), 0.25f); // light that is added
+  EXPECT_EQ(value(8, 8, 2), 1.25f);
+}
+
 TEST_F(RendererTest, textures_are_found_on_their_search_path) {
   shaders_["paint"] =
       "surface paint(string map = \"\") { Ci = color texture(map, 0.5, 0.375, \"width\", 0); Oi = 1; }";
