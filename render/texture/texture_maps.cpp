@@ -15,19 +15,26 @@ namespace {
 
 constexpr std::string_view kRays = "raytrace";
 constexpr const char* kNoRays = "asks for rays, which nobody traces here";
+constexpr const char* kNoFile = "no such file in the texture search path";
 
 } // namespace
 
 TextureMaps::TextureMaps(const Settings& settings) : settings_(settings) {}
 TextureMaps::~TextureMaps() = default;
 
-std::string TextureMaps::file_of(std::string_view map) {
+const TextureMaps::File& TextureMaps::file_of(std::string_view map) {
   std::lock_guard lock(files_mutex_);
   auto it = files_.find(map);
   if (it != files_.end()) return it->second;
-  std::string file = find_image(map, settings_.folders).value_or(std::string(map));
-  // The same name in a folder of the path is no replacement.
-  if (file != map && !file.ends_with("/" + std::string(map))) replaced_[std::string(map)] = file;
+  File file;
+  if (auto found = find_image(map, settings_.folders)) {
+    file = {*found, true};
+    // The same name in a folder of the path is no replacement.
+    if (*found != map && !found->ends_with("/" + std::string(map))) replaced_[std::string(map)] = *found;
+  } else {
+    // OpenImageIO makes names of files of some: "wood.<UDIM>.tx".
+    file = {std::string(map), map.find_first_of("<%") != map.npos};
+  }
   return files_.emplace(std::string(map), std::move(file)).first->second;
 }
 
@@ -52,20 +59,26 @@ ImageLookups* TextureMaps::lookups() {
 }
 
 std::string TextureMaps::texture(const TextureLookup& l) {
+  const File& file = file_of(l.map);
+  if (!file.exists) return kNoFile;
   ImageLookups* images = lookups();
-  return images ? images->texture(file_of(l.map), l) : image_module().problem;
+  return images ? images->texture(file.path, l) : image_module().problem;
 }
 
 std::string TextureMaps::environment(const TextureLookup& l) {
   if (l.map == kRays) return kNoRays;
+  const File& file = file_of(l.map);
+  if (!file.exists) return kNoFile;
   ImageLookups* images = lookups();
-  return images ? images->environment(file_of(l.map), l) : image_module().problem;
+  return images ? images->environment(file.path, l) : image_module().problem;
 }
 
 bool TextureMaps::info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world,
                        slvm::Value& out) {
+  const File& file = file_of(map);
+  if (!file.exists) return false;
   ImageLookups* images = lookups();
-  return images && images->info(file_of(map), field, current_to_world, out);
+  return images && images->info(file.path, field, current_to_world, out);
 }
 
 namespace {
@@ -93,7 +106,11 @@ std::shared_ptr<const ShadowMap> TextureMaps::shadow_map(const std::string& name
   std::lock_guard lock(shadows_mutex_);
   auto [it, is_new] = shadows_.try_emplace(name);
   if (is_new) {
-    it->second.map = read_shadow_map(file_of(name), it->second.problem);
+    const File& file = file_of(name);
+    if (file.exists)
+      it->second.map = read_shadow_map(file.path, it->second.problem);
+    else
+      it->second.problem = kNoFile;
   }
   problem = it->second.problem;
   return it->second.map;

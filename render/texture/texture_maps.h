@@ -49,11 +49,14 @@ private:
   Settings settings_;
   std::once_flag lookups_made_;
   std::unique_ptr<ImageLookups> lookups_;
-  /// The file of a map; its name when there is none.
-  std::string file_of(std::string_view map);
+  struct File {
+    std::string path;    ///< the map's name when there is none
+    bool exists = false; ///< or may do, by OpenImageIO's rules for names
+  };
+  const File& file_of(std::string_view map);
 
   std::mutex files_mutex_;
-  std::map<std::string, std::string, std::less<>> files_;
+  std::map<std::string, File, std::less<>> files_;
   std::map<std::string, std::string> replaced_;
   std::mutex shadows_mutex_;
   struct LoadedShadow {
