@@ -5,6 +5,8 @@
 
 #include <OpenImageIO/imageio.h>
 
+#include <cmath>
+
 namespace render::oiio {
 
 namespace {
@@ -12,6 +14,21 @@ namespace {
 OIIO::TypeDesc type_of(PixelType type) {
   if (type == PixelType::kByte) return OIIO::TypeDesc::UINT8;
   return type == PixelType::kShort ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+/// Whole numbers as such: formats want them so.
+void add_attribute(const std::string& name, const slvm::Value& value, OIIO::ImageSpec& spec) {
+  const bool whole = value.numbers.size() == 1 && value.numbers[0] == std::floor(value.numbers[0]) &&
+                     std::abs(value.numbers[0]) < 1e9f;
+  if (value.strings.size() == 1)
+    spec.attribute(name, value.strings[0]);
+  else if (whole && name != "XResolution" && name != "YResolution")
+    spec.attribute(name, static_cast<int>(value.numbers[0]));
+  else if (value.numbers.size() == 1)
+    spec.attribute(name, value.numbers[0]);
+  else if (!value.numbers.empty())
+    spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, static_cast<int>(value.numbers.size())),
+                   value.numbers.data());
 }
 
 } // namespace
@@ -37,6 +54,8 @@ std::string write_image(const ImageFile& image) {
   // Rendered noise hardly gets smaller by trying harder.
   spec.attribute("tiff:zipquality", 2);
   spec.attribute("png:compressionLevel", 2);
+  for (const auto& [name, value] : image.attributes)
+    add_attribute(name, value, spec);
   if (!image.compression.empty()) spec.attribute("compression", image.compression);
   auto out = OIIO::ImageOutput::create(image.format);
   if (!out) return OIIO::geterror();

@@ -3,6 +3,6 @@
 
 extern "C" void anemone_image_module(render::ImageModule* table) {
   using namespace render::oiio;
-  *table = {"",           make_lookups, knows_format,          write_image, read_depth,
-            make_texture, make_latlong, make_cube_environment, make_shadow};
+  *table = {"",           make_lookups, knows_format, write_image,           read_depth,
+            make_texture, make_bump,    make_latlong, make_cube_environment, make_shadow};
 }

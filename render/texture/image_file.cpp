@@ -14,8 +14,9 @@ int ImageFile::channel(const std::string& name) const {
 }
 
 std::string write_image_file(const ImageFile& image) {
-  if (image.format == "tiff" && tiff_compresses(image.compression)) return write_tiff(image);
-  if (image.format == "png" && image.compression.empty()) return write_png(image);
+  const bool plain = image.attributes.empty();
+  if (plain && image.format == "tiff" && tiff_compresses(image.compression)) return write_tiff(image);
+  if (plain && image.format == "png" && image.compression.empty()) return write_png(image);
   const ImageModule& module = image_module();
   return module.problem.empty() ? module.write_image(image) : module.problem;
 }

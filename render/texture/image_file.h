@@ -2,9 +2,12 @@
 // others by OpenImageIO's module (image_module.h), which takes longer to load than most frames to render.
 #pragma once
 
+#include "slvm/value.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +26,7 @@ struct ImageFile {
   std::vector<std::string> channels;   ///< "R", "G", "B", "A", "Z" and names of variables
   float pixel_aspect = 1;
   std::array<float, 16> world_to_camera{}, world_to_screen{}; ///< by rows
+  std::map<std::string, slvm::Value> attributes;              ///< others, by OpenImageIO's names
   std::string texture_format;                                 ///< "Shadow" for a shadow map, else empty
   std::vector<std::byte> pixels; ///< of `type`, channels of a pixel side by side, row by row from the top
 

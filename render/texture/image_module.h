@@ -38,6 +38,7 @@ struct ImageModule {
   std::string (*write_image)(const ImageFile&) = nullptr;
   std::string (*read_depth)(const std::string& path, DepthImage&) = nullptr;
   std::string (*make_texture)(const std::string&, const std::string&, const MakeSettings&) = nullptr;
+  std::string (*make_bump)(const std::string&, const std::string&, const MakeSettings&) = nullptr;
   std::string (*make_latlong)(const std::string&, const std::string&, const MakeSettings&) = nullptr;
   std::string (*make_cube_environment)(const std::array<std::string, 6>&, const std::string&, float,
                                        const MakeSettings&) = nullptr;

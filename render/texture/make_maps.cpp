@@ -4,11 +4,11 @@
 #include "render/texture/image_file.h"
 #include "render/texture/image_module.h"
 #include "render/texture/tiff_file.h"
+#include "slvm/support/whole_file.h"
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <unistd.h>
 
 namespace render {
 
@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 /// A shadow map of a depth image in a TIFF file: the same numbers, called a shadow map. Lookups take the
 /// finest level only, so that no others are made.
 std::string write_shadow(const DepthImage& depths, const std::string& shadow) {
+  slvm::WholeFile whole(shadow);
   ImageFile file;
-  file.path = shadow + "." + std::to_string(::getpid()) + ".part";
+  file.path = whole.temporary();
   file.format = "tiff";
   file.texture_format = "Shadow";
   file.type = PixelType::kFloat;
@@ -32,14 +33,8 @@ std::string write_shadow(const DepthImage& depths, const std::string& shadow) {
   file.pixels.resize(depths.depth.size() * sizeof(float));
   std::memcpy(file.pixels.data(), depths.depth.data(), file.pixels.size());
   std::string why = write_tiff(file);
-  std::error_code error;
-  if (why.empty()) {
-    fs::rename(file.path, shadow, error);
-    if (!error) return {};
-    why = error.message();
-  }
-  fs::remove(file.path, error);
-  return "cannot make \"" + shadow + "\": " + why;
+  if (why.empty()) why = whole.commit();
+  return why.empty() ? why : "cannot make \"" + shadow + "\": " + why;
 }
 
 } // namespace
@@ -47,6 +42,11 @@ std::string write_shadow(const DepthImage& depths, const std::string& shadow) {
 std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings& settings) {
   const ImageModule& module = image_module();
   return module.problem.empty() ? module.make_texture(image, texture, settings) : module.problem;
+}
+
+std::string make_bump(const std::string& image, const std::string& bump, const MakeSettings& settings) {
+  const ImageModule& module = image_module();
+  return module.problem.empty() ? module.make_bump(image, bump, settings) : module.problem;
 }
 
 std::string make_latlong(const std::string& image, const std::string& texture, const MakeSettings& settings) {

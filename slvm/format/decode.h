@@ -13,8 +13,9 @@ struct CallOperand {
   uint32_t word = 0;
   Type type = Type::kFloat;
   bool store = false;
-  bool array = false;   ///< must be an array operand
-  bool uniform = false; ///< must be uniform
+  bool array = false;    ///< must be an array operand
+  bool uniform = false;  ///< must be uniform
+  uint32_t elements = 0; ///< that the array must have; 0: any number
 };
 
 /// Splits the operand words of a call: stored operands first, then read ones. `level`: the last word of

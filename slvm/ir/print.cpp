@@ -56,7 +56,7 @@ private:
     }
     case Op::kSlot:
     case Op::kStore: return " " + m_.slots[inst.index].name;
-    case Op::kCall: return fmt::format(" {}", shadeop(static_cast<ShadeopId>(inst.index)).name);
+    case Op::kCall: return fmt::format(" {}", m_.called(inst).name);
     case Op::kArray:
     case Op::kArrayClear:
     case Op::kArrayLoad:
