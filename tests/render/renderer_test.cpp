@@ -219,6 +219,15 @@ TEST_F(RendererTest, atmosphere_and_imager) {
   EXPECT_FLOAT_EQ(value(14, 8, 3), 1);
 }
 
+TEST_F(RendererTest, the_background_takes_its_colour_by_two_names) {
+  shaders_["background"] = "imager background(color bgcolor = 1) { Ci += (1 - alpha) * bgcolor; }";
+  for (const char* name : {"bgcolor", "color"}) {
+    EXPECT_EQ(render(fmt::format("Imager \"background\" \"{}\" [.5 .25 0] WorldBegin WorldEnd", name)), "");
+    EXPECT_EQ(value(3, 3, 0), 0.5f) << name;
+    EXPECT_EQ(value(3, 3, 1), 0.25f) << name;
+  }
+}
+
 TEST_F(RendererTest, attributes_and_options_can_be_asked_for) {
   shaders_["ask"] =
       "surface ask() { float sides = 0, heat = 0, format[3] = {0,0,0}; string pass = \"\"; "
