@@ -17,27 +17,12 @@ namespace render::tools {
 
 namespace {
 
-constexpr std::string_view kLongNames[] = {"help",
-                                           "version",
-                                           "progress",
-                                           "Progress",
-                                           "progressformat",
-                                           "crop",
-                                           "res",
-                                           "cwd",
-                                           "shaders",
-                                           "archives",
-                                           "threads",
-                                           "verbose",
-                                           "nowarn",
-                                           "Werror",
-                                           "preview",
-                                           "procedurals",
-                                           "dso",
-                                           "allow-programs",
-                                           "program-timeout",
-                                           "statistics",
-                                           "statisticsfile"};
+constexpr std::string_view kLongNames[] = {
+    "help",       "version",       "progress", "Progress",    "progressformat", "crop",
+    "res",        "cwd",           "shaders",  "archives",    "threads",        "verbose",
+    "nowarn",     "Werror",        "preview",  "procedurals", "dso",            "allow-programs",
+    "program-timeout",
+    "statistics", "statisticsfile"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -104,10 +89,9 @@ Arguments parse_arguments(int argc, char** argv) {
                  "directories for shaders, separated by ':' (@: the usual ones); @ in a scene's path "
                  "(environment: ANEMONE_SHADERS)");
   app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
-  app.add_option(
-      "--procedurals", procedurals,
-      "the same for programs and plug-ins that make geometry; plug-ins (Procedural \"DynamicLoad\") come "
-      "from nowhere else (environment: ANEMONE_PROCEDURALS)");
+  app.add_option("--procedurals", procedurals,
+                 "the same for programs and plug-ins that make geometry; plug-ins (Procedural \"DynamicLoad\") come "
+                 "from nowhere else (environment: ANEMONE_PROCEDURALS)");
   app.add_option(
       "--dso", plugins,
       "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
