@@ -50,7 +50,8 @@ ALLOWED = {
 # The only folders that may use these libraries.
 OUTSIDE = {
     r"embree[34]/": ["render/rays"],
-    r"OpenImageIO/": ["render", "tests/render", "slvm/tools/sltest"],
+    r"OpenImageIO/": ["render/oiio", "tests/render", "slvm/tools/sltest"],
+    r"(?:tiffio|png)\.h": ["render/texture"],
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
     r"hwy/": ["slvm/wide", "slvm/kernels", "tests/bench", "tests/unit/kernels"],

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "render/state/options.h"
+#include "render/texture/image_file.h"
 #include "slvm/support/result.h"
-
-#include <OpenImageIO/imageio.h>
 
 #include <string>
 #include <string_view>
@@ -21,7 +20,7 @@ struct FileFormat {
 slvm::Result<FileFormat> choose_format(const DisplayRequest&);
 
 /// What a channel becomes: quantised integers or floats.
-OIIO::TypeDesc pixel_type(const Quantization&, const std::string& plugin);
+PixelType pixel_type(const Quantization&, const std::string& plugin);
 
 /// The compressions a format has, in lower case; empty: it has its own and no choice.
 std::vector<std::string_view> compressions(const std::string& plugin);
@@ -29,6 +28,6 @@ std::vector<std::string_view> compressions(const std::string& plugin);
 std::string lower_case(std::string text);
 
 /// "compression", "resolution", and whatever nobody here knows, for the format to read.
-void add_parameters(const DisplayRequest&, const std::string& plugin, OIIO::ImageSpec&);
+void add_parameters(const DisplayRequest&, ImageFile&);
 
 } // namespace render

@@ -1,4 +1,4 @@
-// Output through OpenImageIO.
+// From finished pixels to image files: what each channel becomes, and where.
 #include "render/display/output.h"
 
 #include "render/display/channels.h"
@@ -6,9 +6,9 @@
 #include "render/display/quantize.h"
 #include "render/state/camera.h"
 #include "render/state/transforms.h"
+#include "render/texture/image_file.h"
 #include "slvm/support/whole_file.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ public:
   slvm::Result<std::string> write(const DisplayRequest& d);
 
 private:
-  void fill_spec(OIIO::ImageSpec& spec, const std::vector<FileChannel>& channels) const;
+  void describe(ImageFile& file, const std::vector<FileChannel>& channels) const;
   template <class T> std::vector<std::byte> pack(const std::vector<FileChannel>& channels) const;
 
   const Scene& scene_;
@@ -41,26 +41,23 @@ private:
   const std::vector<AovChannel>& aovs_;
 };
 
-void Writer::fill_spec(OIIO::ImageSpec& spec, const std::vector<FileChannel>& channels) const {
-  spec.x = image_.rect.x0;
-  spec.y = image_.rect.y0;
-  spec.full_width = options_.xres * (options_.subpixel ? options_.xsamples : 1);
-  spec.full_height = options_.yres * (options_.subpixel ? options_.ysamples : 1);
-  spec.channelnames.clear();
-  for (size_t i = 0; i < channels.size(); ++i) {
-    spec.channelnames.push_back(channels[i].name);
-    if (channels[i].name == "A") spec.alpha_channel = static_cast<int>(i);
-    if (channels[i].name == "Z") spec.z_channel = static_cast<int>(i);
-  }
-  spec.attribute("Software", "Anemone slrender");
-  spec.attribute("PixelAspectRatio", options_.pixel_aspect);
+void Writer::describe(ImageFile& file, const std::vector<FileChannel>& channels) const {
+  file.width = image_.rect.width();
+  file.height = image_.rect.height();
+  file.x = image_.rect.x0;
+  file.y = image_.rect.y0;
+  file.full_width = options_.xres * (options_.subpixel ? options_.xsamples : 1);
+  file.full_height = options_.yres * (options_.subpixel ? options_.ysamples : 1);
+  for (const FileChannel& channel : channels)
+    file.channels.push_back(channel.name);
+  file.pixel_aspect = options_.pixel_aspect;
   Camera camera(options_);
   // To the picture, x from -1 to 1 left to right, y from -1 to 1 upwards, as textureinfo() and shadow() want
   // it.
   Matrix4 to_screen =
       scene_.world_to_camera * camera.to_ndc() * translation({-0.5f, -0.5f, 0}) * scaling({2, -2, 1});
-  spec.attribute("worldtocamera", OIIO::TypeMatrix, scene_.world_to_camera.m.data());
-  spec.attribute("worldtoscreen", OIIO::TypeMatrix, to_screen.m.data());
+  std::copy_n(scene_.world_to_camera.m.data(), 16, file.world_to_camera.begin());
+  std::copy_n(to_screen.m.data(), 16, file.world_to_screen.begin());
 }
 
 template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileChannel>& channels) const {
@@ -85,12 +82,12 @@ template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileCha
 }
 
 /// One file has one type, that of its first channel. The others adapt.
-void fit_to(OIIO::TypeDesc type, std::vector<FileChannel>& channels) {
+void fit_to(PixelType type, std::vector<FileChannel>& channels) {
   for (FileChannel& c : channels) {
     Quantization& q = c.quantization;
-    if (type == OIIO::TypeDesc::FLOAT && !q.set) q.one = q.zero;
-    if (type == OIIO::TypeDesc::UINT16 && q.is_float()) q = {65535, 0, 65535, q.dither, true, 0};
-    if (type == OIIO::TypeDesc::UINT8 && q.is_float()) q = channels[0].quantization;
+    if (type == PixelType::kFloat && !q.set) q.one = q.zero;
+    if (type == PixelType::kShort && q.is_float()) q = {65535, 0, 65535, q.dither, true, 0};
+    if (type == PixelType::kByte && q.is_float()) q = channels[0].quantization;
   }
 }
 
@@ -102,25 +99,25 @@ slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
   if (!format) return slvm::Error{format.error()};
   std::string name = d.name;
   if (fs::path(name).extension().empty()) name += "." + format->extension;
-  OIIO::TypeDesc type = pixel_type(channels[0].quantization, format->plugin);
+  PixelType type = pixel_type(channels[0].quantization, format->plugin);
   fit_to(type, channels);
 
-  OIIO::ImageSpec spec(image_.rect.width(), image_.rect.height(), static_cast<int>(channels.size()), type);
-  fill_spec(spec, channels);
-  add_parameters(d, format->plugin, spec);
-  std::vector<std::byte> pixels;
-  if (type == OIIO::TypeDesc::UINT8)
-    pixels = pack<uint8_t>(channels);
-  else if (type == OIIO::TypeDesc::UINT16)
-    pixels = pack<uint16_t>(channels);
+  slvm::WholeFile whole(name);
+  ImageFile file;
+  describe(file, channels);
+  file.path = whole.temporary();
+  file.format = format->plugin;
+  file.type = type;
+  add_parameters(d, file);
+  if (type == PixelType::kByte)
+    file.pixels = pack<uint8_t>(channels);
+  else if (type == PixelType::kShort)
+    file.pixels = pack<uint16_t>(channels);
   else
-    pixels = pack<float>(channels);
+    file.pixels = pack<float>(channels);
 
-  auto out = OIIO::ImageOutput::create(format->plugin);
-  if (!out) return slvm::Error{OIIO::geterror()};
-  slvm::WholeFile file(name);
-  bool ok = out->open(file.temporary(), spec) && out->write_image(type, pixels.data()) && out->close();
-  std::string why = ok ? file.commit() : out->geterror();
+  std::string why = write_image_file(file);
+  if (why.empty()) why = whole.commit();
   if (why.empty()) return name;
   return slvm::Error{fmt::format("cannot write \"{}\": {}", name, why)};
 }

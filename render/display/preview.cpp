@@ -2,9 +2,10 @@
 #include "render/display/preview.h"
 
 #include "render/display/quantize.h"
+#include "render/texture/image_file.h"
 #include "slvm/support/whole_file.h"
 
-#include <OpenImageIO/imageio.h>
+#include <cstring>
 
 namespace render {
 
@@ -64,18 +65,17 @@ void Preview::add(const Image& image, const PixelRect& rect) {
 }
 
 void Preview::write(std::vector<uint8_t> pixels) {
-  slvm::WholeFile file(file_);
-  OIIO::ImageSpec spec(rect_.width(), rect_.height(), 3, OIIO::TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", 1);
-  auto out = OIIO::ImageOutput::create("png");
-  std::string why;
-  if (!out)
-    why = OIIO::geterror();
-  else if (out->open(file.temporary(), spec) && out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) &&
-           out->close())
-    why = file.commit();
-  else
-    why = out->geterror();
+  slvm::WholeFile whole(file_);
+  ImageFile file;
+  file.path = whole.temporary();
+  file.format = "png";
+  file.width = file.full_width = rect_.width();
+  file.height = file.full_height = rect_.height();
+  file.channels = {"R", "G", "B"};
+  file.pixels.resize(pixels.size());
+  std::memcpy(file.pixels.data(), pixels.data(), pixels.size());
+  std::string why = write_image_file(file);
+  if (why.empty()) why = whole.commit();
   std::lock_guard lock(mutex_);
   if (problem_.empty()) problem_ = why;
 }

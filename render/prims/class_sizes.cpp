@@ -31,10 +31,10 @@ size_t points_given(const RequestCall& call) {
   return pw ? pw->numbers.size() / 4 : 0;
 }
 
-/// Nothing, or what is wrong with argument `i`: "periodic" or "nonperiodic".
+/// Nothing, or what is wrong with argument `i`: "periodic" or "nonperiodic", which old scenes call "nowrap".
 std::string check_wrap(const RequestCall& call, int i) {
   const std::string& text = call.text(i);
-  if (text == "periodic" || text == "nonperiodic") return {};
+  if (text == "periodic" || text == "nonperiodic" || text == "nowrap") return {};
   return fmt::format("unknown wrap \"{}\"; expected \"periodic\" or \"nonperiodic\"", text);
 }
 

@@ -141,10 +141,9 @@ void Interpreter::light_source(const RequestCall& call) {
   if (call.text(0) == "null") return;
   auto light = make_shader(call);
   light->handle = call.text(1);
+  // A handle that is used again names the new light from here on; the old one goes on shining.
   lights_[light->handle] = light;
-  auto& on = edit().lights;
-  std::erase_if(on, [&](const auto& l) { return l->handle == light->handle; });
-  on.push_back(light);
+  edit().lights.push_back(light);
 }
 
 void Interpreter::illuminate(const RequestCall& call) {
@@ -156,7 +155,7 @@ void Interpreter::illuminate(const RequestCall& call) {
     return;
   }
   auto& on = edit().lights;
-  std::erase_if(on, [&](const auto& l) { return l->handle == handle; });
+  std::erase(on, it->second);
   if (call.integer(1) != 0) on.push_back(it->second);
 }
 

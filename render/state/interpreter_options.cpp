@@ -134,7 +134,13 @@ void Interpreter::exposure(const RequestCall& call) {
 }
 
 void Interpreter::imager(const RequestCall& call) {
-  options_.imager = call.text(0) == "null" ? nullptr : make_shader(call);
+  options_.imager = nullptr;
+  if (call.text(0) == "null") return;
+  auto imager = make_shader(call);
+  // Where the background is built in, its parameter is "color", which no parameter of a shader can be called.
+  for (ShaderParam& p : imager->params)
+    if (imager->name == "background" && p.name == "color") p.name = "bgcolor";
+  options_.imager = imager;
 }
 
 void Interpreter::quantize(const RequestCall& call) {

@@ -95,10 +95,14 @@ public:
     }
     if (open.comment) report(diags_, Msg::kOpenComment, word_range({file, open.comment, 0}, 0));
     if (open.conditional && !open.comment) {
-      report(diags_, Msg::kOpenConditional,
+      // A header that lacks the end of its guard is harmless; a main file may have lost its shader.
+      const bool included = file != file_ids_[kMainName];
+      report(diags_, included ? Msg::kOpenGuard : Msg::kOpenConditional,
              word_range({file, open.conditional, 1}, open.conditional_word.size() + 1),
              open.conditional_word);
-      open_conditional_ = true;
+      open_conditional_ = !included;
+      for (size_t i = 0; included && i < open.conditionals; ++i)
+        clean += "#endif\n";
     }
     return clean;
   }

@@ -162,6 +162,39 @@ TEST_F(Display, depth_files_and_uncompressed_floats) {
   EXPECT_EQ(p[2], 5);
 }
 
+TEST_F(Display, tiff_files_say_where_they_are_and_what_saw_them) {
+  for (const char* compression : {"zip", "lzw", "none", "packbits"}) {
+    EXPECT_EQ(write("Display \"" + path("a.tif") + "\" \"tiff\" \"rgba\" \"string compression\" \"" +
+                    compression + "\""),
+              "");
+    OIIO::ImageSpec spec;
+    auto p = read("a.tif", spec);
+    EXPECT_EQ(spec.get_string_attribute("compression"), compression);
+    EXPECT_EQ(spec.full_width, 8);
+    EXPECT_EQ(spec.full_height, 6);
+    EXPECT_EQ(spec.alpha_channel, 3);
+    EXPECT_NEAR(p[1], 64 / 255.0f, 1.1f / 255);
+    const OIIO::ParamValue* m = spec.find_attribute("worldtoscreen", OIIO::TypeMatrix);
+    ASSERT_NE(m, nullptr);
+    EXPECT_NEAR(static_cast<const float*>(m->data())[5], 1, 1e-6f); // fov 90
+  }
+}
+
+TEST_F(Display, png_has_colours_that_alpha_did_not_scale) {
+  EXPECT_EQ(write("Quantize \"rgba\" 65535 0 65535 0 PixelFilter \"box\" 2 2 Opacity .5 .5 .5 Display \"" +
+                  path("a.png") + "\" \"png\" \"rgba\""),
+            "");
+  OIIO::ImageSpec raw;
+  raw.attribute("oiio:UnassociatedAlpha", 1);
+  auto in = OIIO::ImageInput::open(path("a.png"), &raw);
+  ASSERT_TRUE(in);
+  std::vector<float> p(in->spec().image_pixels() * 4);
+  ASSERT_TRUE(in->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, p.data()));
+  EXPECT_NEAR(p[3], 0.5f, 1e-4f);
+  EXPECT_NEAR(p[0], 0.5f, 1e-4f);
+  EXPECT_NEAR(p[2], 1, 1e-4f);
+}
+
 TEST_F(Display, wrong_parameters_are_reported) {
   auto message = [&](const std::string& parameters) {
     return write("Display \"" + path("x.tif") + "\" \"tiff\" \"rgb\" " + parameters);

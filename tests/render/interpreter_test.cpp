@@ -65,6 +65,14 @@ TEST(Interpreter, lights_are_listed_in_order_and_switched) {
   EXPECT_THAT(messages_of("Illuminate 7 1"), HasSubstr("error: Illuminate: no light has the handle \"7\""));
 }
 
+TEST(Interpreter, a_handle_that_is_used_again_names_the_new_light_beside_the_old) {
+  Scene s = scene_of("WorldBegin LightSource \"a\" 2 LightSource \"b\" 2 Disk 0 1 360 Illuminate 2 0 "
+                     "Disk 0 1 360 WorldEnd");
+  ASSERT_EQ(s.primitives[0].attributes().lights.size(), 2u);
+  ASSERT_EQ(s.primitives[1].attributes().lights.size(), 1u);
+  EXPECT_EQ(s.primitives[1].attributes().lights[0]->name, "a");
+}
+
 TEST(Interpreter, frames_restore_options) {
   Scene s = scene_of("FrameBegin 1 Format 8 8 1 Clipping 1 10 FrameEnd WorldBegin WorldEnd");
   EXPECT_EQ(s.options.xres, 4);

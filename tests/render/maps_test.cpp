@@ -234,6 +234,10 @@ TEST_F(Maps, missing_maps_are_found_under_other_names) {
   EXPECT_EQ(replaced_["wood.tx"], path("wood.tif"));
   look_up(&TextureMaps::texture, "wood.tif", {0.5f, 0.5f, 0});
   EXPECT_TRUE(replaced_.empty());
+  for (auto call : {&TextureMaps::texture, &TextureMaps::environment, &TextureMaps::shadow}) {
+    look_up(call, "stone.tx", {0.5f, 0.5f, 1});
+    EXPECT_EQ(problem_, "no such file in the texture search path");
+  }
 }
 
 TEST_F(Maps, a_rendered_depth_becomes_a_shadow_map_and_a_mask) {

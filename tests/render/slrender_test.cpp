@@ -27,6 +27,30 @@ TEST_F(SlrenderTest, renders_a_file) {
   EXPECT_TRUE(exists("a.png"));
 }
 
+TEST_F(SlrenderTest, pictures_and_shadows_need_no_openimageio) {
+  // A copy of the program without the module that holds the library.
+  fs::copy_file(SLRENDER_PROGRAM, directory_ / "alone");
+  auto alone = [&](const std::string& rib) {
+    file("a.rib", rib);
+    std::FILE* pipe = ::popen(fmt::format("cd '{}' && ./alone a.rib 2>&1", directory_.string()).c_str(), "r");
+    std::string text;
+    char buffer[4096];
+    for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+      text.append(buffer, n);
+    ::pclose(pipe);
+    return text;
+  };
+  const std::string scene = "Format 8 8 1 WorldBegin Translate 0 0 5 Sphere 1 -1 1 360 WorldEnd ";
+  EXPECT_EQ(alone("Display \"a.png\" \"png\" \"rgba\" Display \"+b\" \"tiff\" \"rgbaz\" " + scene), "");
+  EXPECT_TRUE(exists("a.png"));
+  EXPECT_TRUE(exists("b.tif"));
+  EXPECT_EQ(alone("Display \"a.z\" \"zfile\" \"z\" " + scene + "MakeShadow \"a.z\" \"a.shd\""), "");
+  EXPECT_TRUE(exists("a.shd"));
+  EXPECT_EQ(alone("Hider \"depthmask\" \"zfile\" \"a.shd\" Display \"c\" \"tiff\" \"rgb\" " + scene), "");
+  EXPECT_THAT(alone("Display \"a.exr\" \"openexr\" \"rgba\" " + scene),
+              HasSubstr("without anemone_images.so (OpenImageIO) there are no textures"));
+}
+
 TEST_F(SlrenderTest, statistics_as_text_and_json) {
   file("a.rib", kScene);
   Outcome o = run("-statistics -statisticsfile s.json -t:1 a.rib");
