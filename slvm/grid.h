@@ -35,6 +35,8 @@ struct RayFacts {
   std::string label;
   float depth = 0; ///< rays before this one, as many of each kind as follow
   float specular_depth = 0, diffuse_depth = 0, shadow_depth = 0;
+  /// Part of the picture that each point's ray makes, at most; null: 1. The renderer's own memory.
+  const float* weight[3] = {};
 };
 
 class Grid {

@@ -1,8 +1,8 @@
 // What trace(), gather(), transmission(), occlusion() and their relatives ask of a renderer: many rays at once. PUBLIC,
 // abstract: render/rays implements it with Embree; so can an embedder.
 //
-// The machine makes the rays (slvm/exec/rays.cpp): it knows the shader's arguments, the grid's derivatives and
-// where samples go, which are functions of grid, point and sample only. The renderer knows what the rays hit, runs the
+// The machine makes the rays (slvm/exec/rays): it knows the shader's arguments, the grid's derivatives and
+// where samples go, which are functions of grid, point, call and sample only. The renderer knows what the rays hit, runs the
 // shaders there on grids of its own, whose Grid::ray tells them of it, and ends rays that are too deep
 // or weigh too little. Everything geometric is in "current" space.
 #pragma once
@@ -38,6 +38,7 @@ struct RayOptions {
   std::string_view label;  ///< rayinfo("label") at the hits
   std::string_view subset; ///< groups that can be hit: names apart by spaces or commas, "-name" leaves out; empty: all
   bool shades = true;      ///< false: no shader of any hit runs (gather's category "occlusion")
+  uint32_t seed = 0;       ///< of what is random: differs from call to call of one run of a shader
 };
 
 /// Rays as structures of arrays, `count` long. Directions have length 1.
@@ -52,7 +53,8 @@ struct RayBatch {
   const float* bias = nullptr;         ///< hits nearer than this are left out; negative or null: the attribute's
   const float* weight[3] = {};         ///< part of the picture each ray makes, at most; null: 1
   const uint32_t* point = nullptr;     ///< of the grid, to which each ray belongs
-  const uint32_t* sample = nullptr;    ///< number of the ray among those of its point; with `point` the seed of what is random
+  /// Number of the ray among those of its point; with `point`, Grid::id and RayOptions::seed the seed of what is random.
+  const uint32_t* sample = nullptr;
 };
 
 /// A value wanted of every hit.
@@ -71,7 +73,12 @@ struct RayOutput {
   /// pool. Kept where the ray misses or the hit has no such variable of this type.
   float* data = nullptr;
   size_t pitch = 0;
+  /// One a ray, 0 before the call: set to 1 where a value was stored.
+  uint8_t* found = nullptr;
 };
+
+/// The distance of a ray that was not shot: it would be too deep, or weighs too little.
+inline constexpr float kNotShot = -1.0f;
 
 /// Where along a ray traverse() is: the surface met last.
 struct RayCursor {
@@ -92,11 +99,13 @@ struct HemisphereQuery {
   const float* cone_angle = nullptr;  ///< half angle, up to PI; null: PI/2
   const float* max_distance = nullptr, *bias = nullptr; ///< as of RayBatch
   const float* sample_base = nullptr; ///< part of the element origins are spread over; null: 0
+  const float* weight[3] = {};        ///< part of the picture the result makes, at most; null: 1
   float falloff = 0;
   bool falloff_is_power = false; ///< ((maxdist - d) / maxdist)^falloff instead of exp(-falloff d)
   /// Tolerances of interpolation between points; negative: the attributes'. 0: every point by rays.
   float max_error = -1, max_pixel_distance = -1;
-  std::string_view environment_map, environment_space; ///< looked up where rays miss
+  /// Looked up where rays miss, in directions of this space; "": "current", and no map.
+  std::string_view environment_map, environment_space;
   std::string_view cache_space;                        ///< in which points of the cache are kept ("coordsystem")
 
   // Results, null when not wanted.
@@ -106,24 +115,40 @@ struct HemisphereQuery {
   float* environment_direction[3] = {}; ///< mean direction of rays that missed, length 1; 0 when none did
 };
 
+/// Directions as a map's light comes: dense where it is bright. Arrays are `count` long.
+struct EnvironmentSamples {
+  std::string_view map;
+  size_t count = 0;
+  /// Numbers from 0 to 1, well spread: the warp keeps near ones near each other. Rows and columns of the map.
+  const float* random[2] = {};
+  // Results:
+  float* direction[3] = {}; ///< length 1, in the axes environment() takes
+  float* colour[3] = {};    ///< of the map there
+  float* density = nullptr; ///< of directions, in 1 / steradian; 0: no light comes from anywhere
+};
+
 /// Calls come from many threads at once, also from within each other: shaders at hits trace rays, too. `state` is that of the
 /// shader that asks; its grid's `ray` says how deep it is.
 class RayServices {
 public:
   virtual ~RayServices() = default;
 
-  /// The nearest hit of each ray: its distance, infinite for a miss, and the outputs. With `cursors`, one a ray, the
-  /// nearest hit behind each cursor, which moves there.
+  /// The nearest hit of each ray: its distance, infinite for a miss, kNotShot for a ray that was not shot, and the outputs.
+  /// With `cursors`, one a ray, the nearest hit behind each cursor, which moves there.
   virtual void trace(const ShadingState& state, const RayOptions&, const RayBatch&, std::span<const RayOutput> outputs,
                      float* distance, RayCursor* cursors) = 0;
 
   /// How much light comes through from origin to origin + max_distance * direction: the product of 1 - opacity of all that
-  /// is between, by colour. 0 when nothing does.
+  /// is between, by colour. 0 when nothing does. What is nearer than the bias to either end is left out: ends lie on
+  /// surfaces.
   virtual void transmission(const ShadingState& state, const RayOptions&, const RayBatch&,
                             float* const (&through)[3]) = 0;
 
   /// "" or a warning (the environment map is missing); results are set all the same.
   virtual std::string hemisphere(const ShadingState& state, const HemisphereQuery&) = 0;
+
+  /// "" or why the map cannot be used; densities are then 0.
+  virtual std::string sample_environment(const ShadingState& state, const EnvironmentSamples&) = 0;
 };
 
 } // namespace slvm
