@@ -3,6 +3,7 @@
 // Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes
 // beside others that have none) one-sided; 0 where none does, and for all of a grid without extent in that
 // direction. RISpec 3.2 leaves the scheme open; this is PRMan's default ("derivatives" "centered" 1).
+// Hits of rays (Lattice::kHits) have their own neighbours: all three points of a hit share its differences.
 #pragma once
 
 #include "slvm/exec/grid_ops.h"
@@ -18,6 +19,7 @@ public:
 
   /// Calls store(lane, lo, hi) for every point. along_u: neighbours in the row, else in the column.
   template <class F> void for_each(bool along_u, F&& store) const {
+    if (grid_.lattice == Lattice::kHits) return for_each_hit(along_u, store);
     int nu = grid_.nu(), nv = grid_.nv();
     int n = along_u ? nu : nv;
     size_t stride = along_u ? 1 : static_cast<size_t>(nu);
@@ -35,6 +37,14 @@ public:
   }
 
 private:
+  template <class F> void for_each_hit(bool along_u, F&& store) const {
+    auto hits = static_cast<size_t>(grid_.nu());
+    size_t beside = grid_.nv() == 3 ? (along_u ? hits : 2 * hits) : 0;
+    for (size_t lane = 0, hit = 0; lane < grid_.points(); ++lane, hit = hit + 1 == hits ? 0 : hit + 1) {
+      bool both = grid_.derivatives && beside > 0 && holds(hit) && holds(hit + beside);
+      store(lane, both ? hit : lane, both ? hit + beside : lane, size_t{both});
+    }
+  }
   bool holds(size_t lane) const { return everywhere_ || mask_test(valid_, lane); }
 
   const Grid& grid_;

@@ -113,6 +113,20 @@ private:
       };
       lookup_.along_u[c] = change(true);
       lookup_.along_v[c] = change(false);
+      if (o.step && out_.step) follow_footprint(lookup_.along_u[c], lookup_.along_v[c]);
+    }
+  }
+
+  /// Where rays hit, regions are not along u and v but what the ray covers.
+  void follow_footprint(std::vector<float>& along_u, std::vector<float>& along_v) const {
+    const Grid& grid = *call_.run.state.grid;
+    const float* const(&f)[4] = grid.footprint;
+    if (!f[0]) return;
+    for (size_t i = 0; i < lookup_.points; ++i) {
+      size_t hit = i % static_cast<size_t>(grid.nu());
+      float u = along_u[i], v = along_v[i];
+      along_u[i] = u * f[0][hit] + v * f[1][hit];
+      along_v[i] = u * f[2][hit] + v * f[3][hit];
     }
   }
 
