@@ -10,6 +10,7 @@
 #include "slvm/support/matrix.h"
 #include "slvm/value.h"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -35,6 +36,9 @@ struct RayFacts {
   std::string label;
   float depth = 0; ///< rays before this one, as many of each kind as follow
   float specular_depth = 0, diffuse_depth = 0, shadow_depth = 0;
+  /// What specular_depth and diffuse_depth may become, by the objects whose rays led here.
+  float most_specular_depth = std::numeric_limits<float>::infinity(),
+        most_diffuse_depth = std::numeric_limits<float>::infinity();
   /// Part of the picture that each point's ray makes, at most; null: 1. The renderer's own memory.
   const float* weight[3] = {};
 };

@@ -30,7 +30,11 @@ enum RandomPurpose : uint64_t {
   kStrata = 4,
   kTime = 5,
   kLens = 6,
-  kLensCells = 7
+  kLensCells = 7,
+  kHits = 8,
+  kDisplacedFaces = 9,
+  kRayTime = 10,
+  kHemisphere = 11
 };
 
 } // namespace render

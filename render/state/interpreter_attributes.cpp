@@ -15,6 +15,7 @@ Attributes& Interpreter::edit() {
 
 void Interpreter::attribute(const RequestCall& call) {
   const std::string& category = call.text(0);
+  bool known = false;
   for (const Param& p : call.params) {
     auto value = loose_value(p, declarations_);
     if (!value) {
@@ -22,6 +23,10 @@ void Interpreter::attribute(const RequestCall& call) {
       continue;
     }
     edit().named[category + ":" + value->first] = value->second;
+    if (auto problem = set_ray_attribute(edit().rays, category, value->first, value->second)) {
+      known = true;
+      if (!problem->empty()) error_at(p.where, call, fmt::format("\"{}\" {}", value->first, *problem));
+    }
     if (category == "cull" && value->second.numbers.size() == 1) {
       if (value->first == "hidden")
         edit().cull_hidden = value->second.numbers[0] != 0;
@@ -37,7 +42,7 @@ void Interpreter::attribute(const RequestCall& call) {
   }
   if (category == "displacementbound")
     displacement_bound(call);
-  else if (category != "user" && category != "identifier" && category != "trimcurve" && category != "cull")
+  else if (!known && category != "user" && category != "identifier" && category != "trimcurve" && category != "cull")
     warn_once("Attribute " + category, call.where, "rib-unsupported",
               fmt::format("Attribute \"{}\" has no effect yet (shaders can read its values)", category));
 }

@@ -292,7 +292,7 @@ void Interpreter::option(const RequestCall& call) {
   }
   if (category == "limits")
     limits(call);
-  else if (category != "user" && category != "shutter" && category != "statistics")
+  else if (category != "user" && category != "shutter" && category != "statistics" && category != "trace")
     warn_once("Option " + category, call.where, "rib-unsupported",
               fmt::format("Option \"{}\" has no effect yet (shaders can read its values)", category));
 }
