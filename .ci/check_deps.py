@@ -8,7 +8,7 @@ import re
 
 import tree
 
-SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/renderer_services"]
+SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -17,7 +17,8 @@ ALLOWED = {
     "slvm/wide": ["slvm/support"],
     "slvm/grid": ["slvm/format", "slvm/wide", "slvm/support", "slvm/value"],
     "slvm/textures": ["slvm/support", "slvm/value"],
-    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/format", "slvm/support", "slvm/value"],
+    "slvm/rays": ["slvm/format"],
+    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
     "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
     "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",
