@@ -61,7 +61,7 @@ struct RayBatch {
 struct RayOutput {
   /// Of which shader at the hit the variable is: a parameter or a predefined variable after that shader ran. kPrimitive: a
   /// predefined or primitive variable before any shader ran. kAttribute: as attribute() names it. kVolume: the volume
-  /// shader on the side the ray comes from. kShaded: a predefined variable after all shaders ran, atmosphere included.
+  /// shader on the side the ray comes from. kShaded: a predefined variable after all shaders ran, as a camera sees it.
   enum class From : uint8_t {
     kSurface, kDisplacement, kVolume, kAtmosphere, kInterior, kExterior, kLight, kPrimitive, kAttribute, kShaded
   };

@@ -25,12 +25,20 @@ public:
       level = words_.back();
       words_ = words_.first(words_.size() - 1);
     }
+    uint32_t token_outputs = 0;
+    if (info.flags & kTokenOut) {
+      if (words_.empty()) return false;
+      token_outputs = words_.back();
+      words_ = words_.first(words_.size() - 1);
+    }
     const Signature& s = info.signature;
     if (s.result != Type::kVoid && !take({0, s.result, true, false, s.uniform_result}, false)) return false;
     for (int i = 0; i < s.param_count; ++i) {
       const SignatureParam& p = s.params[static_cast<size_t>(i)];
       if (p.output && !take({0, p.type, true, p.array, p.uniform}, p.any)) return false;
     }
+    for (; token_outputs > 0; --token_outputs)
+      if (!take({0, Type::kFloat, true, false, false}, true)) return false;
     for (int i = 0; i < s.param_count; ++i) {
       const SignatureParam& p = s.params[static_cast<size_t>(i)];
       if (!p.input) continue;
