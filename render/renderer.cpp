@@ -4,6 +4,7 @@
 #include "render/display/output.h"
 #include "render/hider/frame.h"
 #include "render/map_requests.h"
+#include "render/rays/ray_tracer.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
 #include "render/statistics.h"
@@ -78,6 +79,8 @@ void Renderer::Impl::render(Scene& frame) {
   if (s.progress) s.progress(0);
   TextureMaps textures(texture_settings(frame.options));
   SceneServices services(frame, shaders, textures, settings.print);
+  RayTracer rays(frame, machine, shaders, services);
+  services.set_rays(&rays);
   VmShading shading(machine, shaders, services);
   DepthMask mask;
   if (load_mask(frame.options, mask)) s.mask = &mask;

@@ -150,7 +150,8 @@ void FrameRenderer::split_all() {
   std::vector<std::vector<GridTask>> parts(chunks);
   tbb::parallel_for(size_t{0}, chunks, [&](size_t c) {
     for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
-      split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
+      if (scene_.primitives[i].attributes().rays.camera)
+        split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
   });
   for (auto& part : parts) {
     tasks_.insert(tasks_.end(), part.begin(), part.end());
