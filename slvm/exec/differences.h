@@ -2,8 +2,9 @@
 //
 // Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes
 // beside others that have none) one-sided; 0 where none does, and for all of a grid without extent in that
-// direction. RISpec 3.2 leaves the scheme open; this is PRMan's default ("derivatives" "centered" 1).
-// Hits of rays (Lattice::kHits) have their own neighbours: all three points of a hit share its differences.
+// direction, and for what rays brought that are spread by chance. RISpec 3.2 leaves the scheme open; this is
+// PRMan's default ("derivatives" "centered" 1). Hits of rays (Lattice::kHits) have their own neighbours: all three
+// points of a hit share its differences.
 #pragma once
 
 #include "slvm/exec/grid_ops.h"
@@ -14,8 +15,9 @@ namespace slvm {
 class Differences {
 public:
   Differences(const GridCall& call)
-      : grid_(*call.run.state.grid), valid_(call.run.mask.at_level(call.level)),
-        everywhere_(call.level == 0) {}
+      : grid_(*call.run.state.grid), valid_(call.run.mask.at_level(call.level & ~kScatteredLevel)),
+        everywhere_(call.level == 0),
+        differ_(grid_.derivatives && !(call.level & kScatteredLevel && call.run.gathers.any_scattered())) {}
 
   /// Calls store(lane, lo, hi) for every point. along_u: neighbours in the row, else in the column.
   template <class F> void for_each(bool along_u, F&& store) const {
@@ -28,7 +30,7 @@ public:
         size_t lane = static_cast<size_t>(iv) * static_cast<size_t>(nu) + static_cast<size_t>(iu);
         int at = along_u ? iu : iv;
         size_t lo = lane, hi = lane;
-        if (grid_.derivatives) {
+        if (differ_) {
           if (at > 0 && holds(lane - stride)) lo = lane - stride;
           if (at + 1 < n && holds(lane + stride)) hi = lane + stride;
         }
@@ -50,6 +52,7 @@ private:
   const Grid& grid_;
   const MaskWord* valid_;
   bool everywhere_;
+  bool differ_; ///< false: neighbours say nothing, all differences are 0
 };
 
 } // namespace slvm
