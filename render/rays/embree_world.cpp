@@ -14,6 +14,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <tuple>
 
 namespace render {
 
@@ -76,8 +77,7 @@ void commit(RTCScene scene) {
   tbb::this_task_arena::isolate([&] { rtcCommitScene(scene); });
 }
 
-/// Surfaces in the same place: hits of one item that differ by less, relative to the distance, are its two faces at an
-/// edge.
+/// Hits of two faces of a surface that differ by less, relative to the distance, are one at the edge between them.
 constexpr float kSamePlace = 2e-6f;
 
 } // namespace
@@ -149,6 +149,7 @@ struct Query {
     Query* query;
   } inner;
   const RayRule& rule;
+  const ItemFaces* faces;
   const slvm::RayCursor* behind = nullptr;
   const uint8_t* solid = nullptr;
   std::vector<RayHit>* list = nullptr;
@@ -157,7 +158,7 @@ struct Query {
   uint32_t hit_item = 0;
   bool needs_front = false, needs_back = false, flipped = false; ///< in that item
 
-  explicit Query(const RayRule& r) : rule(r) {
+  Query(const RayRule& r, const ItemFaces& f) : rule(r), faces(&f) {
     init_context(outer);
     init_context(inner);
     outer.query = this;
@@ -175,8 +176,8 @@ struct Query {
   }
   bool keeps(const RTCRay& ray, const RTCHit& hit) {
     if (needs_front || needs_back) {
-      // Embree's normals of quadrilaterals are along (last side) x (first side).
-      float towards = -(hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z);
+      // Embree's normals of quadrilaterals are along (first side) x (last side).
+      float towards = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z;
       bool front = (towards < 0) != flipped;
       if (needs_front ? !front : front) return false;
     }
@@ -186,13 +187,10 @@ struct Query {
     return list->size() >= most;
   }
   bool is_behind(float distance, uint32_t face) const {
-    if (behind->primitive == item) {
-      if (behind->face == face) return distance > behind->distance * (1 + kSamePlace);
-      // The neighbour across an edge is the same surface.
-      if (std::abs(distance - behind->distance) <= kSamePlace * distance) return false;
-    }
-    if (distance != behind->distance) return distance > behind->distance;
-    return item > behind->primitive;
+    if (behind->primitive == item && std::abs(distance - behind->distance) <= kSamePlace * distance &&
+        (behind->face == face || faces->same_surface(item, face, behind->face)))
+      return false;
+    return std::tie(distance, item, face) > std::tie(behind->distance, behind->primitive, behind->face);
   }
   bool filters() const { return needs_front || needs_back || behind || list; }
 };
@@ -324,7 +322,7 @@ RayWorld::~RayWorld() {
 bool RayWorld::nearest(const RayRule& rule, const RaySegment& segment, const slvm::RayCursor* behind,
                        RayHit& hit) const {
   if (!is_usable(segment)) return false;
-  Query q(rule);
+  Query q(rule, impl_->source);
   q.behind = behind && behind->distance > -kInfinity ? behind : nullptr;
   RTCRayHit ray{};
   set_ray(ray.ray, segment);
@@ -337,7 +335,7 @@ bool RayWorld::nearest(const RayRule& rule, const RaySegment& segment, const slv
 
 bool RayWorld::any(const RayRule& rule, const RaySegment& segment) const {
   if (!is_usable(segment)) return false;
-  Query q(rule);
+  Query q(rule, impl_->source);
   RTCRay ray{};
   set_ray(ray, segment);
   occluded(impl_->top, q.outer, nullptr, ray);
@@ -348,7 +346,7 @@ bool RayWorld::all(const RayRule& rule, const RaySegment& segment, const uint8_t
                    std::vector<RayHit>& hits) const {
   hits.clear();
   if (!is_usable(segment)) return false;
-  Query q(rule);
+  Query q(rule, impl_->source);
   q.solid = solid;
   q.list = &hits;
   q.most = most;

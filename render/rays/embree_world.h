@@ -49,7 +49,7 @@ private:
 struct WorldItem {
   Box bounds;             ///< finite, in the space of the rays
   bool one_sided = false; ///< seen from its front only
-  bool flipped = false;   ///< the front of its faces is not where their corners seem to turn left-handed
+  bool flipped = false;   ///< the front of its faces is the other side than (first side) x (last side)
   bool placed = false;    ///< the faces are in a space of their own:
   Matrix4 to_item;        ///< from that of the rays to it
 };
@@ -60,6 +60,8 @@ public:
   virtual ~ItemFaces() = default;
   /// Null: there are none. What it gives stays until no query is running.
   virtual const FaceScene* faces(uint32_t item) = 0;
+  /// Whether two faces of an item belong to one surface: a ray through the edge between them meets it once.
+  virtual bool same_surface(uint32_t item, uint32_t face, uint32_t other) const = 0;
 };
 
 struct RaySegment {

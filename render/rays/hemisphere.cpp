@@ -60,8 +60,11 @@ std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::H
   HemisphereSampler sampler(*this, state, query, interpolates);
   std::vector<HemispherePoint> points;
   std::vector<uint64_t> mask(query.points / 64 + 1);
-  for (size_t i = 0; i < query.points; ++i) {
+  // Of hits only those that count.
+  size_t asked = query.points == grid.points() ? std::min(query.points, grid.samples()) : query.points;
+  for (size_t i = 0; i < asked; ++i) {
     HemispherePoint p = point_of(query, i);
+    if (interpolates) p.base = 0; // samples stand for more than their element
     bool wanted = is_on(query, i) && is_usable(p) && sampler.may_shoot();
     if (wanted) mask[i / 64] |= uint64_t{1} << (i % 64);
     if (is_on(query, i) && !wanted) store(query, i, {});
@@ -72,7 +75,8 @@ std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::H
     std::vector<HemisphereSample> samples(points.size());
     sampler.sample(points, samples);
     for (size_t k = 0; k < points.size(); ++k)
-      store(query, points[k].number, samples[k]);
+      for (size_t i = points[k].number; i < query.points; i += asked)
+        store(query, i, samples[k]); // and the neighbours of a hit
     return sampler.problem();
   }
   LatticeProblem problem;
@@ -81,6 +85,8 @@ std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::H
   problem.points = points;
   problem.mask = mask.data();
   problem.max_error = max_error;
+  // Half of what is noise in a sample does not count.
+  problem.tolerance = 0.1f * max_error + 0.3f / std::sqrt(std::max(query.samples, 1.0f));
   float step = primitive ? std::sqrt(primitive->attributes().shading_rate) : 1.0f;
   problem.most_steps = static_cast<int>(std::clamp(most_pixels / step, 1.0f, 1e6f));
   problem.sample = [&](const HemispherePoint& p) {

@@ -7,6 +7,8 @@ namespace render {
 
 namespace {
 
+/// Lines and cells of fewer steps are interpolated without a look at their middles.
+constexpr int kVerified = 4;
 constexpr size_t kValues = HemisphereSample::kValues, kGradients = HemisphereSample::kGradients;
 
 HemisphereSample blend(const HemisphereSample& a, const HemisphereSample& b, float t) {
@@ -65,15 +67,35 @@ private:
   /// Values at all points of a line whose ends are known.
   void line(int first, int stride, int steps) {
     if (steps < 2) return;
-    int last = first + stride * steps;
-    if (can_interpolate(first, stride, steps)) {
+    int middle = steps / 2, centre = first + stride * middle;
+    bool near = can_interpolate(first, stride, steps);
+    if (near && steps < kVerified) {
       interpolate(first, stride, steps);
       return;
     }
-    int middle = steps / 2;
-    take(first + stride * middle);
+    if (near) {
+      HemisphereSample expected = on_line(first, stride, steps, middle);
+      take(centre);
+      near = agree(expected, at(centre));
+    } else {
+      take(centre);
+    }
+    if (near) {
+      interpolate(first, stride, middle);
+      interpolate(centre, stride, steps - middle);
+      return;
+    }
     line(first, stride, middle);
-    line(first + stride * middle, stride, (last - first) / stride - middle);
+    line(centre, stride, steps - middle);
+  }
+
+  /// Whether a sample is what was expected, light compared with the brighter of both.
+  bool agree(const HemisphereSample& a, const HemisphereSample& b) const {
+    for (size_t c = 0; c < kGradients; ++c) {
+      float whole = c == 0 ? 1.0f : std::max({a.value[c], b.value[c], 0.1f});
+      if (!(std::abs(a.value[c] - b.value[c]) <= p_.tolerance * whole)) return false;
+    }
+    return true;
   }
 
   bool can_interpolate(int first, int stride, int steps) {
@@ -85,42 +107,53 @@ private:
     return true;
   }
 
-  /// Cubic from both values and the slopes that their gradients give.
-  void interpolate(int first, int stride, int steps) {
+  /// Cubic from both values and the slopes that their gradients give, at a point of the line.
+  HemisphereSample on_line(int first, int stride, int steps, int step) {
     int last = first + stride * steps;
-    const HemisphereSample a = at(first), b = at(last);
+    const HemisphereSample &a = at(first), &b = at(last);
     Vec3 way = point(last).P - point(first).P, turn = glm::cross(point(first).N, point(last).N);
-    float whole = 0;
-    for (int k = first; k != last; k += stride)
-      whole += glm::distance(point(k).P, point(k + stride).P);
-    float gone = 0;
-    for (int i = 1; i < steps; ++i) {
+    float whole = 0, gone = 0;
+    for (int i = 0; i < steps; ++i) {
       int k = first + stride * i;
-      gone += glm::distance(point(k - stride).P, point(k).P);
-      float t = whole > 0 ? gone / whole : static_cast<float>(i) / static_cast<float>(steps);
-      HemisphereSample s = blend(a, b, t);
-      float r = 1 - t;
-      for (size_t c = 0; c < kGradients; ++c) {
-        float chord = b.value[c] - a.value[c];
-        auto slope = [&](const HemisphereSample& from) {
-          float m = glm::dot(from.move[c], way) + glm::dot(from.turn[c], turn);
-          // Gradients are estimates: they may not lead far from the values at the ends.
-          float most = 2 * std::max({std::abs(a.value[c]), std::abs(b.value[c]), std::abs(chord)});
-          return std::clamp(m, -most, most);
-        };
-        s.value[c] = std::max(0.0f, s.value[c] + t * r * (r * (slope(a) - chord) - t * (slope(b) - chord)));
-      }
-      s.value[0] = std::min(s.value[0], 1.0f);
-      set(k, s);
+      whole += glm::distance(point(k).P, point(k + stride).P);
+      if (i + 1 == step) gone = whole;
     }
+    float t = whole > 0 ? gone / whole : static_cast<float>(step) / static_cast<float>(steps), r = 1 - t;
+    HemisphereSample s = blend(a, b, t);
+    for (size_t c = 0; c < kGradients; ++c) {
+      float chord = b.value[c] - a.value[c];
+      auto slope = [&](const HemisphereSample& from) {
+        float m = glm::dot(from.move[c], way) + glm::dot(from.turn[c], turn);
+        // Gradients are estimates: they may not lead far from the values at the ends.
+        float most = 2 * std::max({std::abs(a.value[c]), std::abs(b.value[c]), std::abs(chord)});
+        return std::clamp(m, -most, most);
+      };
+      s.value[c] = std::max(0.0f, s.value[c] + t * r * (r * (slope(a) - chord) - t * (slope(b) - chord)));
+    }
+    s.value[0] = std::min(s.value[0], 1.0f);
+    return s;
+  }
+
+  void interpolate(int first, int stride, int steps) {
+    for (int i = 1; i < steps; ++i)
+      set(first + stride * i, on_line(first, stride, steps, i));
   }
 
   /// The inside of a rectangle whose edges are known.
   void cell(int i0, int j0, int i1, int j1) {
     if (i1 - i0 < 2 || j1 - j0 < 2) return;
     if (cell_is_near(i0, j0, i1, j1)) {
-      blend_cell(i0, j0, i1, j1);
-      return;
+      if (std::min(i1 - i0, j1 - j0) < kVerified) {
+        blend_cell({i0, j0, i1, j1}, nullptr);
+        return;
+      }
+      int i = (i0 + i1) / 2, j = (j0 + j1) / 2;
+      HemisphereSample expected = in_cell({i0, j0, i1, j1}, i, j);
+      take(j * p_.nu + i);
+      if (agree(expected, at(j * p_.nu + i))) {
+        blend_cell({i0, j0, i1, j1}, &expected);
+        return;
+      }
     }
     if (i1 - i0 >= j1 - j0) {
       int i = (i0 + i1) / 2;
@@ -150,23 +183,44 @@ private:
     return true;
   }
 
-  void blend_cell(int i0, int j0, int i1, int j1) {
+  struct Cell {
+    int i0, j0, i1, j1;
+  };
+
+  /// Coons' blend of the four edges at a point inside.
+  HemisphereSample in_cell(const Cell& cell, int i, int j) {
+    auto [i0, j0, i1, j1] = cell;
+    float s = static_cast<float>(i - i0) / static_cast<float>(i1 - i0);
+    float t = static_cast<float>(j - j0) / static_cast<float>(j1 - j0);
+    HemisphereSample across = blend(at(j * p_.nu + i0), at(j * p_.nu + i1), s);
+    HemisphereSample down = blend(at(j0 * p_.nu + i), at(j1 * p_.nu + i), t);
+    HemisphereSample corners = blend(blend(at(j0 * p_.nu + i0), at(j0 * p_.nu + i1), s),
+                                     blend(at(j1 * p_.nu + i0), at(j1 * p_.nu + i1), s), t);
+    HemisphereSample out = blend(across, down, 0.5f);
+    for (size_t c = 0; c < kValues; ++c)
+      out.value[c] = across.value[c] + down.value[c] - corners.value[c];
+    return out;
+  }
+
+  /// `expected`: what the middle would have been; by how much it is not so is spread over the cell.
+  void blend_cell(const Cell& cell, const HemisphereSample* expected) {
+    auto [i0, j0, i1, j1] = cell;
+    const HemisphereSample middle = at((j0 + j1) / 2 * p_.nu + (i0 + i1) / 2);
     for (int j = j0 + 1; j < j1; ++j)
       for (int i = i0 + 1; i < i1; ++i) {
-        float s = static_cast<float>(i - i0) / static_cast<float>(i1 - i0);
-        float t = static_cast<float>(j - j0) / static_cast<float>(j1 - j0);
-        HemisphereSample across = blend(at(j * p_.nu + i0), at(j * p_.nu + i1), s);
-        HemisphereSample down = blend(at(j0 * p_.nu + i), at(j1 * p_.nu + i), t);
-        HemisphereSample corners = blend(blend(at(j0 * p_.nu + i0), at(j0 * p_.nu + i1), s),
-                                         blend(at(j1 * p_.nu + i0), at(j1 * p_.nu + i1), s), t);
-        HemisphereSample out = blend(across, down, 0.5f);
+        HemisphereSample out = in_cell(cell, i, j);
+        float part = bulge(i0, i, i1) * bulge(j0, j, j1);
         for (size_t c = 0; c < kValues; ++c) {
-          out.value[c] = across.value[c] + down.value[c] - corners.value[c];
+          if (expected) out.value[c] += part * (middle.value[c] - expected->value[c]);
           if (c < kGradients) out.value[c] = std::max(0.0f, out.value[c]);
         }
         out.value[0] = std::min(out.value[0], 1.0f);
         set(j * p_.nu + i, out);
       }
+  }
+  /// A parabola: 0 at the ends, 1 in the middle.
+  static float bulge(int from, int at, int to) {
+    return 4 * static_cast<float>((at - from) * (to - at)) / static_cast<float>((to - from) * (to - from));
   }
 
   const LatticeProblem& p_;

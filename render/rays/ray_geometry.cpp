@@ -82,6 +82,16 @@ SurfacePlace RayGeometry::place(const RayHit& hit) const {
   return out;
 }
 
+/// The patches of one request are one surface.
+bool RayGeometry::same_surface(uint32_t index, uint32_t face, uint32_t other) const {
+  const Item& item = *items_[index];
+  auto state = [&](uint32_t f) {
+    auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), f);
+    return scene_.primitives[item.primitives[static_cast<size_t>(after - item.first_face.begin()) - 1]].state.get();
+  };
+  return state(face) == state(other);
+}
+
 /// A subset names groups that are seen, or, with "-", groups that are not; with only the latter all others are.
 bool RayGeometry::group_is_in(uint32_t groups, std::string_view subset) const {
   std::vector<std::string_view> members = words_of(groups_[groups]);

@@ -38,7 +38,7 @@ struct SurfacePlace {
   bool displaced = false; ///< the faces hit were those of the displaced surface
 };
 
-class RayGeometry final : private ItemFaces {
+class RayGeometry final : public ItemFaces {
 public:
   /// All arguments must outlive this. `displacer` may be null.
   RayGeometry(const Scene& scene, const Camera& camera, Displacer* displacer, RayGeometrySettings settings = {});
@@ -48,6 +48,7 @@ public:
   const RayTraits& traits(uint32_t item) const { return items_[item]->traits; }
   size_t items() const { return items_.size(); }
   SurfacePlace place(const RayHit& hit) const;
+  bool same_surface(uint32_t item, uint32_t face, uint32_t other) const override;
 
   /// One an item: whether rays of a kind that see only `subset` (RayOptions) see it. Valid as long as this.
   const uint8_t* seen(slvm::RayKind kind, std::string_view subset);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace render {
 
@@ -34,12 +35,13 @@ bool is_dark(Color through) {
 }
 
 /// Nearest first. Where a ray meets the edge between two faces of an item it has hit a surface once.
-void put_in_order(std::vector<RayHit>& layers) {
+void put_in_order(const RayGeometry& geometry, std::vector<RayHit>& layers) {
   std::sort(layers.begin(), layers.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.distance, a.item, a.face) < std::tie(b.distance, b.item, b.face);
   });
-  auto same = [](const RayHit& a, const RayHit& b) {
-    return a.item == b.item && a.face != b.face && b.distance - a.distance <= 2e-6f * b.distance;
+  auto same = [&](const RayHit& a, const RayHit& b) {
+    return a.item == b.item && a.face != b.face && b.distance - a.distance <= 2e-6f * b.distance &&
+           geometry.same_surface(a.item, a.face, b.face);
   };
   layers.erase(std::unique(layers.begin(), layers.end(), same), layers.end());
 }
@@ -48,7 +50,7 @@ void put_in_order(std::vector<RayHit>& layers) {
 bool find_layers(const RayGeometry& geometry, const RayRule& rule, LightPath& path) {
   if (geometry.world().all(rule, path.segment, geometry.solid(), kLayers, path.layers)) return false;
   if (path.layers.size() < kLayers) {
-    put_in_order(path.layers);
+    put_in_order(geometry, path.layers);
     path.complete = true;
     return true;
   }
