@@ -61,6 +61,7 @@ void GatherLoop::read_category(std::string_view category) {
 }
 
 void GatherLoop::read_spec(const GridCall& call, const CallTokens& tokens, RaySpec& spec) {
+  spec.direction_counts = mode_ != Mode::kMapSamples;
   spec.angle = PointValue(call.operands[3].planes);
   spec.samples = PointValue(call.operands[4].planes);
   if (const float count = tokens.number("samplecount", 0); count > 0) spec.samples = count;

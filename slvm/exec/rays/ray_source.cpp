@@ -88,9 +88,10 @@ void RaySource::read_direction(const RaySpec& spec, size_t i) {
     finite = finite && std::isfinite(origin[c][i]);
   }
   const double length = std::sqrt(squared);
-  shoots[i] = finite && length > 0 && std::isfinite(length);
+  const bool directed = length > 0 && std::isfinite(length);
+  shoots[i] = !spec.direction_counts || (finite && directed);
   for (size_t c = 0; c < 3; ++c)
-    axis[c][i] = shoots[i] ? static_cast<float>(d[c] / length) : 0.0f;
+    axis[c][i] = directed ? static_cast<float>(d[c] / length) : 0.0f;
   if (spec.to_target) max_distance[i] = std::min(max_distance[i], static_cast<float>(length));
 }
 
@@ -162,7 +163,7 @@ void RaySource::read_differences(const GridCall& call, const RaySpec& spec) {
       d[c] = at(spec.direction, c, point[i]) - (spec.to_target ? origin[c][i] : 0.0f);
       squared += d[c] * d[c];
     }
-    const float scale = shoots[i] ? static_cast<float>(1 / std::sqrt(squared)) : 0.0f;
+    const float scale = squared > 0 ? static_cast<float>(1 / std::sqrt(squared)) : 0.0f;
     for (auto [along, moves] : {std::pair(&axis_u, &origin_u), std::pair(&axis_v, &origin_v)}) {
       float turn[3], parallel = 0;
       for (size_t c = 0; c < 3; ++c) {

@@ -12,6 +12,7 @@ namespace slvm {
 struct RaySpec {
   Operand origin;
   Operand direction;      ///< axis of the cone, of any length
+  bool direction_counts = true; ///< false: it comes from elsewhere
   bool to_target = false; ///< `direction` is a point instead: rays are no longer than to there
   PointValue angle = 0;   ///< half angle of the cone; 0: the axis itself
   PointValue samples = 1;
