@@ -25,7 +25,7 @@ bool nearly_equal(const Matrix4& a, const Matrix4& b) {
 }
 
 /// Whether two geometries are the same surface, as far as a few points tell.
-bool same_surface(const Geometry& a, const Geometry& b) {
+bool same_geometry(const Geometry& a, const Geometry& b) {
   constexpr float kProbes[] = {0, 0.37f, 0.71f, 1};
   SurfaceLattice x, y;
   a.evaluate(kProbes, kProbes, x);
@@ -136,7 +136,7 @@ bool RayGeometry::Gatherer::same_as_first(const ObjectCopy& copy, const ObjectCo
   for (size_t i = 0; i < copy.count; ++i) {
     const Primitive &p = scene_.primitives[copy.first + i], &q = scene_.primitives[first.first + i];
     if (!nearly_equal(p.state->object_to_camera * a, q.state->object_to_camera * b) ||
-        !same_surface(*p.geometry, *q.geometry))
+        !same_geometry(*p.geometry, *q.geometry))
       return false;
   }
   return true;

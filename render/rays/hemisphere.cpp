@@ -52,7 +52,7 @@ bool is_usable(const HemispherePoint& p) {
 std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::HemisphereQuery& query) {
   const slvm::Grid& grid = state.grid;
   const auto* primitive = static_cast<const Primitive*>(grid.user);
-  const RayAttributes attributes = primitive ? primitive->attributes().rays : RayAttributes{};
+  const RayAttributes& attributes = attributes_of(grid);
   float max_error = query.max_error >= 0 ? query.max_error : attributes.max_error;
   float most_pixels = query.max_pixel_distance >= 0 ? query.max_pixel_distance : attributes.max_pixel_distance;
   bool lattice = grid.lattice == slvm::Lattice::kRows && query.points == grid.points() && grid.nu() > 1 && grid.nv() > 1;

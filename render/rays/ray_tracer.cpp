@@ -52,10 +52,8 @@ RayGeometry& RayTracer::geometry() {
 
 /// The deepest rays of a kind: as the object that shoots allows, counted from where it is, and as those before it do.
 RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state, const slvm::RayOptions& options) const {
-  static const RayAttributes kDefaults; // sltest has grids of no primitive
-  const auto* primitive = static_cast<const Primitive*>(state.grid.user);
   const slvm::RayFacts& facts = state.grid.ray;
-  Shooter out{state, facts, primitive ? primitive->attributes().rays : kDefaults, facts};
+  Shooter out{state, facts, attributes_of(state.grid), facts};
   auto limit = [](float before, float depth, int allowed) {
     return std::min(before, depth + static_cast<float>(allowed));
   };

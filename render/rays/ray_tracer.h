@@ -26,6 +26,9 @@ public:
             slvm::RendererServices& services);
   ~RayTracer() override;
 
+  /// What grids that are of no primitive of the scene shoot with.
+  void set_default_attributes(const RayAttributes& a) { default_attributes_ = a; }
+
   void trace(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,
              std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors) override;
   void transmission(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,
@@ -39,6 +42,10 @@ private:
   friend class HemisphereSampler;
   struct Shooter;
 
+  const RayAttributes& attributes_of(const slvm::Grid& grid) const {
+    const auto* primitive = static_cast<const Primitive*>(grid.user);
+    return primitive ? primitive->attributes().rays : default_attributes_;
+  }
   /// Made by the first ray.
   RayGeometry& geometry();
   Shooter shooter(const slvm::ShadingState& state, const slvm::RayOptions& options) const;
@@ -50,6 +57,7 @@ private:
   slvm::RendererServices& services_;
   Camera camera_;
   HitShader hits_;
+  RayAttributes default_attributes_;
   float min_weight_ = 0, max_depth_ = 10;
   RayGeometrySettings geometry_settings_;
   std::once_flag geometry_made_;

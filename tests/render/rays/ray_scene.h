@@ -49,6 +49,10 @@ public:
   const std::string& messages() const { return messages_; }
   slvm::Machine& machine() { return machine_; }
   SceneServices& services() { return *services_; }
+  /// The shaders of a primitive.
+  const slvm::ShaderSet& shaders(size_t primitive) const {
+    return bound_->find(&scene_.primitives[primitive].attributes())->shaders;
+  }
 
   static slvm::RayOutput output(slvm::RayOutput::From from, std::string_view name, slvm::Type type);
 
