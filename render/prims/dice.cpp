@@ -87,24 +87,27 @@ void Dicer::set_geometry() {
          I = triple(grid_, Global::kI);
   for_parts([&](const SurfacePoints& part, size_t k) {
     const Primitive& primitive = *part.primitive;
-    primitive.geometry->evaluate(part.u, part.v, lattice);
     const Matrix4& m = primitive.state->object_to_camera;
     const Matrix4& inverse = primitive.state->camera_to_object;
     float along_u = 1 / (primitive.uv.u1 - primitive.uv.u0), along_v = 1 / (primitive.uv.v1 - primitive.uv.v0);
-    for (size_t i = 0; i < lattice.P.size(); ++i, ++k) {
-      Vec3 p = transform_point(m, lattice.P[i]);
+    auto set = [&](const SurfaceValue& at) {
+      Vec3 p = transform_point(m, at.P);
       P.set(k, p);
       I.set(k, context_.camera->incident(p));
-      dPdu.set(k, transform_vector(m, lattice.dPdu[i] * along_u));
-      dPdv.set(k, transform_vector(m, lattice.dPdv[i] * along_v));
+      dPdu.set(k, transform_vector(m, at.dPdu * along_u));
+      dPdv.set(k, transform_vector(m, at.dPdv * along_v));
       // Normals go by the inverse transpose.
-      Vec3 n = lattice.N[i];
       Vec3 nc;
       for (int c = 0; c < 3; ++c)
-        nc[c] = sign * (inverse(c, 0) * n.x + inverse(c, 1) * n.y + inverse(c, 2) * n.z);
+        nc[c] = sign * (inverse(c, 0) * at.N.x + inverse(c, 1) * at.N.y + inverse(c, 2) * at.N.z);
       N.set(k, nc);
       Ng.set(k, nc);
-    }
+      ++k;
+    };
+    if (part.known) return set(*part.known);
+    primitive.geometry->evaluate(part.u, part.v, lattice);
+    for (size_t i = 0; i < lattice.P.size(); ++i)
+      set({lattice.P[i], lattice.dPdu[i], lattice.dPdv[i], lattice.N[i]});
   });
 }
 

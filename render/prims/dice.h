@@ -25,10 +25,16 @@ struct DiceContext {
 void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context,
           slvm::Grid& grid);
 
+/// A point of a surface in object space, as SurfaceLattice has it.
+struct SurfaceValue {
+  Vec3 P, dPdu, dPdv, N;
+};
+
 /// Points of a primitive: all pairs of a u and a v of its parameter square.
 struct SurfacePoints {
   const Primitive* primitive = nullptr;
   std::span<const float> u, v;
+  const SurfaceValue* known = nullptr; ///< of a single point: what the geometry gives there
 };
 
 /// Fills a grid with the points of `parts`, one part after another; it has as many points, and du and dv are left to the

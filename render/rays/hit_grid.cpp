@@ -14,6 +14,8 @@ using slvm::Global;
 /// The surface is evaluated this far from a hit, at least and at most, in its parameters; what is farther or nearer is
 /// extrapolated.
 constexpr float kLeastStep = 1.0f / 8192, kMostStep = 1.0f / 16;
+/// How far from the ray a hit may be, by its distance: about half a pixel of a usual camera.
+constexpr float kNearEnough = 2e-4f;
 /// Footprints do not grow further at more grazing angles.
 constexpr float kLeastCosine = 0.03f;
 
@@ -37,10 +39,11 @@ Vec2 nearest_combination(Vec3 x, Vec3 y, Vec3 d) {
 
 /// The point of the surface that lies nearest to `target`, from a place near it: faces are a little off the surface, and
 /// their own parameters off its.
-SurfaceSpot settle(const Primitive& primitive, Vec3 target, float& u, float& v, SurfaceLattice& scratch) {
+SurfaceSpot settle(const Primitive& primitive, Vec3 target, float tolerance, float& u, float& v,
+                   SurfaceLattice& scratch) {
   constexpr int kRounds = 6;
   SurfaceSpot spot = evaluate_spot(primitive, u, v, scratch);
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < kRounds && glm::distance(spot.P, target) > tolerance; ++i) {
     Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, target - spot.P);
     float longest = std::max(std::abs(step.x), std::abs(step.y));
     if (!(longest < kInfinity)) break;
@@ -67,7 +70,8 @@ float step_inside(float at, float wanted) {
 SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch) {
   primitive.geometry->evaluate({&u, 1}, {&v, 1}, scratch);
   const Matrix4& m = primitive.state->object_to_camera;
-  return {transform_point(m, scratch.P[0]), transform_vector(m, scratch.dPdu[0]), transform_vector(m, scratch.dPdv[0])};
+  return {transform_point(m, scratch.P[0]), transform_vector(m, scratch.dPdu[0]), transform_vector(m, scratch.dPdv[0]),
+          {scratch.P[0], scratch.dPdu[0], scratch.dPdv[0], scratch.N[0]}};
 }
 
 Footprint footprint_on(const HitRay& ray, const SurfaceSpot& spot) {
@@ -97,7 +101,7 @@ void HitGrid::find_spots(const Scene& scene, std::span<const HitRay> hits) {
     float u = hit.place.u, v = hit.place.v;
     Vec3 target = hit.origin + hit.direction * hit.distance;
     // Where faces are displaced they tell nothing about the surface below.
-    spots_.push_back(hit.place.displaced ? evaluate_spot(*p, u, v, scratch_) : settle(*p, target, u, v, scratch_));
+    spots_.push_back(hit.place.displaced ? evaluate_spot(*p, u, v, scratch_) : settle(*p, target, kNearEnough * hit.distance, u, v, scratch_));
     primitives_.push_back(p);
     u_.push_back(u);
     v_.push_back(v);
@@ -141,7 +145,7 @@ void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside
   std::vector<SurfacePoints> parts;
   parts.reserve(u_.size());
   for (size_t k = 0; k < u_.size(); ++k)
-    parts.push_back({primitives_[k % n], {&u_[k], 1}, {&v_[k], 1}});
+    parts.push_back({primitives_[k % n], {&u_[k], 1}, {&v_[k], 1}, k < n ? &spots_[k].object : nullptr});
   dice_points(parts, context, grid);
   // A primitive that was moved in time is this grid's only.
   grid.user = &scene.primitives[hits[0].place.primitive];

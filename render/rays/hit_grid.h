@@ -26,6 +26,7 @@ struct HitRay {
 /// Where a surface is at a point, in camera space, with derivatives by its parameter square.
 struct SurfaceSpot {
   Vec3 P, dPdu, dPdv;
+  SurfaceValue object; ///< the same in object space
 };
 SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch);
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <tuple>
 
 namespace render {
 
@@ -238,21 +237,25 @@ uint32_t HitShader::group_of(uint32_t primitive) {
 /// By group, then primitive, then ray. Groups are in the order of their first hits here, whatever their numbers.
 void HitShader::sort(std::vector<HitRay>& hits) {
   struct Key {
-    uint32_t order, primitive, ray, index;
+    uint32_t order, primitive, index;
+    auto operator<=>(const Key&) const = default;
   };
   std::vector<Key> keys(hits.size());
-  std::map<uint32_t, uint32_t> order; // of groups
   {
+    std::map<uint32_t, uint32_t> orders; // of groups
+    uint32_t group = 0, order = 0;
     std::lock_guard lock(groups_mutex_);
     for (uint32_t i = 0; i < hits.size(); ++i) {
-      uint32_t group = group_of(hits[i].place.primitive);
-      keys[i] = {order.try_emplace(group, static_cast<uint32_t>(order.size())).first->second,
-                 hits[i].place.primitive, hits[i].ray, i};
+      uint32_t primitive = hits[i].place.primitive;
+      if (uint32_t g = group_of(primitive); g != group) {
+        group = g;
+        order = orders.try_emplace(g, static_cast<uint32_t>(orders.size())).first->second;
+      }
+      keys[i] = {order, primitive, i};
     }
   }
-  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-    return std::tie(a.order, a.primitive, a.ray) < std::tie(b.order, b.primitive, b.ray);
-  });
+  if (std::is_sorted(keys.begin(), keys.end())) return;
+  std::sort(keys.begin(), keys.end());
   std::vector<HitRay> sorted;
   sorted.reserve(hits.size());
   for (const Key& key : keys)

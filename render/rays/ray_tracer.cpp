@@ -128,6 +128,7 @@ void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& o
   RayRule rule{g.seen(options.kind, options.subset), options.sides};
   bool light = min_weight_ > 0;
   std::vector<HitRay> hits;
+  if (!outputs.empty()) hits.reserve(batch.count);
   {
     auto tracing = g.tracing();
     for (size_t i = 0; i < batch.count; ++i) {

@@ -58,6 +58,9 @@ public:
   /// Whether RunProgram may run what a scene names.
   bool allow_programs = false;
   ProgramLimits program_limits;
+  /// What a procedural of the scene holds, given the pixels its bound covers. Only from within render_world;
+  /// from any thread, one call at a time.
+  SceneContent make_content(const Procedural&, float area);
   /// Directories "@" stands for in search paths, by kind of path.
   std::map<std::string, std::vector<std::string>> standard_paths;
 
@@ -237,7 +240,6 @@ private:
 
   // procedurals
   void procedural(const RequestCall&);
-  void run_procedurals();
   void run(const Procedural&, float area);
   void run_program(const Procedural&, float area);
   slvm::Result<std::unique_ptr<Program>> start_program(const Procedural&);
@@ -266,7 +268,7 @@ private:
   };
   std::map<std::string, Content> contents_;
   Scene scene_;
-  std::vector<Procedural> procedurals_;                      ///< of the world block
+  size_t procedurals_ = 0;                                   ///< seen so far in the world block
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
   int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
   bool in_world_ = false;

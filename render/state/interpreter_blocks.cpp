@@ -96,12 +96,18 @@ void Interpreter::world_end(const RequestCall& call) {
   }
   // Closed first, so that a block left open is reported before a long render.
   close(call, BlockKind::kWorld);
-  run_procedurals();
   scene_.spaces = spaces_;
-  in_world_ = false;
   in_motion_.reset();
-  if (render_world_ && !stopped_) render_world_(scene_);
+  if (render_world_ && !stopped_) {
+    // What procedurals make goes to a scene of its own: this one is being read while they are at it.
+    Scene scene = std::exchange(scene_, {});
+    scene_.options = scene.options;
+    scene_.world_to_camera = scene.world_to_camera;
+    render_world_(scene);
+  }
+  in_world_ = false;
   scene_ = {};
+  procedurals_ = 0;
 }
 
 void Interpreter::attribute_begin(const RequestCall& call) {

@@ -1,4 +1,4 @@
-// Procedurals: kept when they are met, carried out at the end of the world, those the camera sees.
+// Procedurals: kept when they are met, carried out when the renderer comes to them.
 #include "render/rib/parser.h"
 #include "render/state/interpreter.h"
 #include "render/state/search_path.h"
@@ -53,12 +53,12 @@ void Interpreter::procedural(const RequestCall& call) {
                          call.texts(1).size()));
     return;
   }
-  if (procedurals_.size() == kMostProcedurals) {
+  if (procedurals_ == kMostProcedurals) {
     error(call, fmt::format("more than {} procedurals in a frame; the request is skipped", kMostProcedurals));
     return;
   }
   auto b = call.numbers(2);
-  Procedural& p = procedurals_.emplace_back();
+  Procedural p;
   p.type = type;
   p.arguments.assign(call.texts(1).begin(), call.texts(1).end());
   // "Infinite" bounds stay numbers when they are transformed.
@@ -69,30 +69,30 @@ void Interpreter::procedural(const RequestCall& call) {
   p.object_to_camera = ctm_;
   p.motion = motion_;
   p.folder = folder_;
+  p.displacement_bound = displacement_bound_of(*attributes_, ctm_);
   p.depth = procedural_depth_ + 1;
   p.where = call.where;
   if (p.bound.empty()) {
     error_at(call.arguments[2].where, call, "the bound is empty; expected xmin xmax ymin ymax zmin zmax");
-    procedurals_.pop_back();
+    return;
   }
+  ++procedurals_;
+  scene_.procedurals.push_back(std::move(p));
 }
 
-/// Called between the closing of the world and its rendering. Those found on the way join the row.
-void Interpreter::run_procedurals() {
-  Camera camera(scene_.options);
-  for (size_t i = 0; i < procedurals_.size() && !stopped_; ++i) {
-    Procedural p = std::move(procedurals_[i]);
-    Box box = transform_box(p.object_to_camera, p.bound);
-    box.grow(displacement_bound_of(*p.attributes, p.object_to_camera));
-    auto area = visible_area(camera, scene_.options, box);
-    if (!area) continue;
-    if (p.depth > kDeepest) {
-      report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
-      continue;
-    }
-    run(p, *area);
+SceneContent Interpreter::make_content(const Procedural& p, float area) {
+  if (stopped_) return {};
+  if (p.depth > kDeepest) {
+    report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
+    return {};
   }
-  procedurals_.clear();
+  auto spaces = spaces_;
+  run(p, area);
+  scene_.copies.clear();
+  SceneContent content{std::exchange(scene_.primitives, {}), std::exchange(scene_.procedurals, {}), {}};
+  for (const auto& [name, space] : spaces_)
+    if (auto it = spaces.find(name); it == spaces.end() || it->second != space) content.spaces[name] = space;
+  return content;
 }
 
 void Interpreter::report(const Procedural& p, std::string_view text) {

@@ -3,6 +3,7 @@
 
 #include "render/prims/primitive.h"
 #include "render/state/options.h"
+#include "render/state/procedural.h"
 
 #include <map>
 #include <string>
@@ -17,6 +18,14 @@ struct ObjectCopy {
   Matrix4 to_camera;
 };
 
+/// What a procedural holds.
+struct SceneContent {
+  std::vector<Primitive> primitives;
+  std::vector<Procedural> procedurals;
+  /// Spaces that CoordinateSystem named in it, to camera.
+  std::map<std::string, Matrix4> spaces;
+};
+
 struct Scene {
   Options options;
   Matrix4 world_to_camera;
@@ -24,6 +33,8 @@ struct Scene {
   std::map<std::string, Matrix4> spaces;
   std::vector<Primitive> primitives;
   std::vector<ObjectCopy> copies; ///< what rays may share; primitives may have changed since
+  /// Geometry that is made when the picture comes to it: Interpreter::make_content.
+  std::vector<Procedural> procedurals;
 };
 
 } // namespace render

@@ -254,9 +254,11 @@ TEST(Trace, rays_that_weigh_too_little_are_not_shot) {
 }
 
 TEST(Trace, cursors_find_one_surface_after_the_other) {
-  // Three cards, two of them in the same place, and a ray through the edge between two faces.
-  RayScene s(world("Translate 0 0 2 Disk 0 3 360 Disk 2 3 360 Disk 2 3 360 Disk 5 3 360"));
+  // Cards, two of them in the same place; and rays through the edges between faces.
+  RayScene two(world("Translate 0 0 2 Disk 0 3 360 Disk 2 3 360 Disk 2 3 360 Disk 5 3 360")),
+      one(world("Translate 0 0 2 Disk 0 3 360 Disk 2 3 360 Disk 5 3 360"));
   for (float x : {0.3f, 0.0f}) {
+    RayScene& s = x > 0 ? two : one;
     slvm::RayCursor cursor;
     std::vector<float> met;
     for (int i = 0; i < 9; ++i) {
@@ -264,7 +266,7 @@ TEST(Trace, cursors_find_one_surface_after_the_other) {
       if (d == kInfinity) break;
       met.push_back(d);
     }
-    EXPECT_THAT(met, ElementsAre(2, 4, 4, 7)) << x;
+    EXPECT_EQ(met, x > 0 ? (std::vector<float>{2, 4, 4, 7}) : (std::vector<float>{2, 4, 7})) << x;
   }
 }
 
