@@ -46,8 +46,9 @@ struct RayFacts {
 /// How the points of a grid lie to each other.
 enum class Lattice : uint8_t {
   kRows, ///< a lattice: neighbours in the grid are neighbours on the surface
-  /// nu points that have nothing to do with each other: the hits of rays. They are row 0. Where shaders differentiate,
-  /// nv is 3: rows 1 and 2 hold, for each, a point beside it, one step along u (du, varying) and one along v.
+  /// nu points that have nothing to do with each other: the hits of rays. They are row 0. Where shaders
+  /// differentiate, nv is 3: rows 1 and 2 hold, for each, a point beside it, one step along u (du, varying)
+  /// and one along v.
   kHits,
 };
 
@@ -81,8 +82,9 @@ public:
   size_t samples() const { return lattice == Lattice::kHits ? static_cast<size_t>(nu_) : points(); }
 
   Lattice lattice = Lattice::kRows;
-  /// Of hits, nu floats each, the renderer's own memory: how many steps along u and along v a ray's footprint reaches in
-  /// the one direction, then in the other one; texture lookups filter over it. Null: one step along u, one along v.
+  /// Of hits, nu floats each, the renderer's own memory: how many steps along u and along v a ray's footprint
+  /// reaches in the one direction, then in the other one; texture lookups filter over it. Null: one step
+  /// along u, one along v.
   const float* footprint[4] = {};
 
   /// What rayinfo() tells.

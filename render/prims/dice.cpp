@@ -89,7 +89,8 @@ void Dicer::set_geometry() {
     const Primitive& primitive = *part.primitive;
     const Matrix4& m = primitive.state->object_to_camera;
     const Matrix4& inverse = primitive.state->camera_to_object;
-    float along_u = 1 / (primitive.uv.u1 - primitive.uv.u0), along_v = 1 / (primitive.uv.v1 - primitive.uv.v0);
+    float along_u = 1 / (primitive.uv.u1 - primitive.uv.u0),
+          along_v = 1 / (primitive.uv.v1 - primitive.uv.v0);
     auto set = [&](const SurfaceValue& at) {
       Vec3 p = transform_point(m, at.P);
       P.set(k, p);
@@ -174,8 +175,8 @@ void Dicer::fill(size_t index, float* planes) {
   for_parts([&](const SurfacePoints& part, size_t first) {
     const PatchVar& var = part.primitive->vars[index];
     interpolate(var, part.u, part.v, planes + first, grid_.pitch());
-    to_camera(part.primitive->state->object_to_camera, var.type, planes + first, var.elements ? var.elements : 1,
-              part.u.size() * part.v.size());
+    to_camera(part.primitive->state->object_to_camera, var.type, planes + first,
+              var.elements ? var.elements : 1, part.u.size() * part.v.size());
   });
 }
 

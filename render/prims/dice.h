@@ -37,9 +37,9 @@ struct SurfacePoints {
   const SurfaceValue* known = nullptr; ///< of a single point: what the geometry gives there
 };
 
-/// Fills a grid with the points of `parts`, one part after another; it has as many points, and du and dv are left to the
-/// caller. The primitives have the same attributes, the same object space and variables of the same names and kinds;
-/// constant ones have the same values, unless they replace predefined ones.
+/// Fills a grid with the points of `parts`, one part after another; it has as many points, and du and dv are
+/// left to the caller. The primitives have the same attributes, the same object space and variables of the
+/// same names and kinds; constant ones have the same values, unless they replace predefined ones.
 void dice_points(std::span<const SurfacePoints> parts, const DiceContext& context, slvm::Grid& grid);
 
 /// The predefined variable that a primitive variable replaces, or kCount. "st" is none: it replaces two.

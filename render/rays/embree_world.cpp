@@ -1,7 +1,7 @@
-// Embree: a top-level scene with one user-defined primitive an item. Embree calls back for a ray that reaches an item's
-// box; the callback has the item's faces made, if need be, and goes on tracing in their scene. That Embree's own
-// instances are not used makes the world lazy: an item no ray comes near is never tessellated, and items can be dropped
-// and made again while the world stays as it is.
+// Embree: a top-level scene with one user-defined primitive an item. Embree calls back for a ray that reaches
+// an item's box; the callback has the item's faces made, if need be, and goes on tracing in their scene. That
+// Embree's own instances are not used makes the world lazy: an item no ray comes near is never tessellated,
+// and items can be dropped and made again while the world stays as it is.
 #include "render/rays/embree_world.h"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -71,13 +71,14 @@ RTCScene faces_of(const FaceScene* faces) {
   return static_cast<const EmbreeFaces*>(faces)->scene;
 }
 
-/// Builds run on all processors; while this thread waits for them it must not take up other work of the renderer, which
-/// could wait for what is being built here.
+/// Builds run on all processors; while this thread waits for them it must not take up other work of the
+/// renderer, which could wait for what is being built here.
 void commit(RTCScene scene) {
   tbb::this_task_arena::isolate([&] { rtcCommitScene(scene); });
 }
 
-/// Hits of two faces of a surface that differ by less, relative to the distance, are one at the edge between them.
+/// Hits of two faces of a surface that differ by less, relative to the distance, are one at the edge between
+/// them.
 constexpr float kSamePlace = 2e-6f;
 
 } // namespace
@@ -112,8 +113,8 @@ std::unique_ptr<const FaceScene> RayDevice::build(const QuadMesh& mesh) const {
   size_t points = mesh.points.size() / mesh.times;
   rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(mesh.times));
   for (size_t t = 0; t < mesh.times; ++t) {
-    auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(t),
-                                                           RTC_FORMAT_FLOAT3, 3 * sizeof(float), points));
+    auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(
+        g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(t), RTC_FORMAT_FLOAT3, 3 * sizeof(float), points));
     for (size_t i = 0; i < points; ++i)
       for (int c = 0; c < 3; ++c)
         *to++ = mesh.points[t * points + i][c];
@@ -139,8 +140,8 @@ struct RayWorld::Impl {
 
 namespace {
 
-/// One ray on its way. The outer context goes through the top level, the inner one through the faces of an item; both are
-/// the beginning of this, so that callbacks find it.
+/// One ray on its way. The outer context goes through the top level, the inner one through the faces of an
+/// item; both are the beginning of this, so that callbacks find it.
 struct Query {
   struct Outer : QueryContext {
     Query* query;
@@ -196,7 +197,8 @@ struct Query {
 };
 
 Query& query_of(const void* context, bool inner) {
-  return inner ? *static_cast<const Query::Inner*>(context)->query : *static_cast<const Query::Outer*>(context)->query;
+  return inner ? *static_cast<const Query::Inner*>(context)->query
+               : *static_cast<const Query::Outer*>(context)->query;
 }
 
 void filter_hit(const RTCFilterFunctionNArguments* args) {
@@ -290,7 +292,8 @@ void bound_item(const RTCBoundsFunctionArguments* args) {
 
 /// Rays that are not numbers hit nothing.
 bool is_usable(const RaySegment& ray) {
-  float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y + ray.direction.z;
+  float sum =
+      ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y + ray.direction.z;
   return std::isfinite(sum) && ray.nearest <= ray.farthest && glm::dot(ray.direction, ray.direction) > 0;
 }
 

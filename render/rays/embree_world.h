@@ -1,6 +1,6 @@
-// What the renderer wants of a ray tracer, and the only door to Embree: quadrilaterals in scenes of their own, and a
-// world of items, each of which is such a scene that is asked for when a ray first reaches the item's box. Works with
-// Embree 3 and 4. Read next: ray_geometry.h, which makes the items.
+// What the renderer wants of a ray tracer, and the only door to Embree: quadrilaterals in scenes of their
+// own, and a world of items, each of which is such a scene that is asked for when a ray first reaches the
+// item's box. Works with Embree 3 and 4. Read next: ray_geometry.h, which makes the items.
 #pragma once
 
 #include "render/state/math.h"
@@ -13,8 +13,8 @@
 
 namespace render {
 
-/// Faces by their four corners; a triangle has its last two equal. The points are given once for each of `times` moments
-/// from the opening of the shutter to its closing, evenly apart.
+/// Faces by their four corners; a triangle has its last two equal. The points are given once for each of
+/// `times` moments from the opening of the shutter to its closing, evenly apart.
 struct QuadMesh {
   size_t times = 1;
   std::vector<Vec3> points; ///< those of the first moment, then those of the next
@@ -91,9 +91,10 @@ public:
   bool nearest(const RayRule&, const RaySegment&, const slvm::RayCursor* behind, RayHit& hit) const;
   /// Whether there is any.
   bool any(const RayRule&, const RaySegment&) const;
-  /// All hits on items that are not `solid` (one an item), in no order, at most `most`; true: something solid is in the
-  /// way, and the list is of no use.
-  bool all(const RayRule&, const RaySegment&, const uint8_t* solid, size_t most, std::vector<RayHit>& hits) const;
+  /// All hits on items that are not `solid` (one an item), in no order, at most `most`; true: something solid
+  /// is in the way, and the list is of no use.
+  bool all(const RayRule&, const RaySegment&, const uint8_t* solid, size_t most,
+           std::vector<RayHit>& hits) const;
 
   struct Impl;
 

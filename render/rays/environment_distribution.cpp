@@ -13,7 +13,8 @@ namespace {
 /// Latitude-longitude as environment() has it: z up, s = longitude / 2 PI, t = (PI/2 - latitude) / PI.
 Vec3 direction_at(float s, float t) {
   float latitude = kPi * (0.5f - t), longitude = 2 * kPi * s;
-  return {std::cos(longitude) * std::cos(latitude), std::sin(longitude) * std::cos(latitude), std::sin(latitude)};
+  return {std::cos(longitude) * std::cos(latitude), std::sin(longitude) * std::cos(latitude),
+          std::sin(latitude)};
 }
 
 /// The place of `wanted` in a table of sums, and how far into it.
@@ -69,7 +70,8 @@ EnvironmentDistribution::EnvironmentDistribution(slvm::TextureServices& textures
   }
 }
 
-void EnvironmentDistribution::sample(float row, float column, Vec3& direction, Color& colour, float& density) const {
+void EnvironmentDistribution::sample(float row, float column, Vec3& direction, Color& colour,
+                                     float& density) const {
   direction = {0, 0, 1};
   colour = Color(0.0f);
   density = 0;

@@ -16,7 +16,8 @@ public:
   /// Looks the map up in all directions. `problem`: why that cannot be done.
   EnvironmentDistribution(slvm::TextureServices& textures, std::string_view map, std::string& problem);
 
-  /// The direction that two numbers from 0 to 1 stand for, the map's colour there and the density of directions.
+  /// The direction that two numbers from 0 to 1 stand for, the map's colour there and the density of
+  /// directions.
   void sample(float row, float column, Vec3& direction, Color& colour, float& density) const;
 
 private:

@@ -236,7 +236,8 @@ RayGeometry::RayGeometry(const Scene& scene, const Camera& camera, Displacer* di
     w.bounds = item->bounds;
     // The faces bulge out of a surface's bound by rounding only.
     Vec3 size = w.bounds.max - w.bounds.min;
-    w.bounds.grow(1e-5f * std::max({size.x, size.y, size.z, glm::length(w.bounds.min), glm::length(w.bounds.max)}));
+    w.bounds.grow(1e-5f *
+                  std::max({size.x, size.y, size.z, glm::length(w.bounds.min), glm::length(w.bounds.max)}));
     w.one_sided = item->traits.one_sided;
     w.placed = item->placed;
     w.to_item = item->to_object;

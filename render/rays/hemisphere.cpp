@@ -1,4 +1,5 @@
-// hemisphere(): the surroundings of the points of a grid, at each point by rays or interpolated between few of them.
+// hemisphere(): the surroundings of the points of a grid, at each point by rays or interpolated between few
+// of them.
 #include "render/rays/hemisphere_cache.h"
 #include "render/rays/hemisphere_lattice.h"
 #include "render/rays/hemisphere_sampler.h"
@@ -54,8 +55,10 @@ std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::H
   const auto* primitive = static_cast<const Primitive*>(grid.user);
   const RayAttributes& attributes = attributes_of(grid);
   float max_error = query.max_error >= 0 ? query.max_error : attributes.max_error;
-  float most_pixels = query.max_pixel_distance >= 0 ? query.max_pixel_distance : attributes.max_pixel_distance;
-  bool lattice = grid.lattice == slvm::Lattice::kRows && query.points == grid.points() && grid.nu() > 1 && grid.nv() > 1;
+  float most_pixels =
+      query.max_pixel_distance >= 0 ? query.max_pixel_distance : attributes.max_pixel_distance;
+  bool lattice =
+      grid.lattice == slvm::Lattice::kRows && query.points == grid.points() && grid.nu() > 1 && grid.nv() > 1;
   bool interpolates = max_error > 0 && lattice;
   HemisphereSampler sampler(*this, state, query, interpolates);
   std::vector<HemispherePoint> points;

@@ -1,6 +1,6 @@
-// Hemisphere samples of a frame by the points they were taken at. A sample is a function of its key, so that it does not
-// matter who takes it, or whether it is found here: the cache saves rays only. Grids that meet at an edge share the
-// samples on it.
+// Hemisphere samples of a frame by the points they were taken at. A sample is a function of its key, so that
+// it does not matter who takes it, or whether it is found here: the cache saves rays only. Grids that meet at
+// an edge share the samples on it.
 #pragma once
 
 #include "render/rays/hemisphere_sample.h"

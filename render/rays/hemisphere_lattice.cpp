@@ -27,8 +27,7 @@ HemisphereSample blend(const HemisphereSample& a, const HemisphereSample& b, flo
 
 class Lattice {
 public:
-  explicit Lattice(const LatticeProblem& p)
-      : p_(p), samples_(p.points.size()), known_(p.points.size()) {}
+  explicit Lattice(const LatticeProblem& p) : p_(p), samples_(p.points.size()), known_(p.points.size()) {}
 
   std::vector<HemisphereSample> run() {
     int u = p_.nu - 1, v = p_.nv - 1;

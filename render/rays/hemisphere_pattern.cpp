@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kMostSamples = 1 << 20;
 
-/// Rings for so many cells: cells are about as long as wide when there are PI times as many sectors as rings (Ward and
-/// Heckbert 1992). A number that divides the cells is taken if its cells are not too far from that.
+/// Rings for so many cells: cells are about as long as wide when there are PI times as many sectors as rings
+/// (Ward and Heckbert 1992). A number that divides the cells is taken if its cells are not too far from that.
 int rings_for(int cells) {
   double best = std::sqrt(cells / M_PI);
   int out = 0;
@@ -40,13 +40,14 @@ HemispherePattern make_pattern(float samples, float fewest) {
   return p;
 }
 
-HemisphereDirection direction_in(const HemispherePattern& p, int ring, int sector, float x, float y, float cone,
-                                 bool cosine_weighted) {
+HemisphereDirection direction_in(const HemispherePattern& p, int ring, int sector, float x, float y,
+                                 float cone, bool cosine_weighted) {
   float r = (static_cast<float>(ring) + x) / static_cast<float>(p.rings);
   float azimuth = 2 * kPi * (static_cast<float>(sector) + y) / static_cast<float>(p.sectors);
   float limit = std::cos(std::clamp(cone, 0.0f, kPi));
   if (!cosine_weighted) return {1 - r * (1 - limit), azimuth};
-  // The part of all directions within an angle is 1 - cos^2 in front of the horizon; behind it cos^2 is added.
+  // The part of all directions within an angle is 1 - cos^2 in front of the horizon; behind it cos^2 is
+  // added.
   float whole = limit >= 0 ? 1 - limit * limit : 1 + limit * limit;
   float part = r * whole;
   return {part <= 1 ? std::sqrt(1 - part) : -std::sqrt(part - 1), azimuth};

@@ -1,8 +1,10 @@
-// Rays of hemispheres. Points are taken a few thousand rays at a time.
+// Where rays go and what their results come to; hemisphere_cast.cpp shoots them. Points are taken a few
+// thousand rays at a time.
 #include "render/rays/hemisphere_sampler.h"
 
 #include "render/hider/random.h"
 #include "render/rays/hemisphere_cache.h"
+#include "render/rays/hemisphere_rays.h"
 
 #include <cmath>
 #include <functional>
@@ -12,7 +14,8 @@ namespace render {
 namespace {
 
 constexpr size_t kRaysAtATime = 8192;
-/// Blocks of cells whose distances differ by this factor, or whose light by this part of the whole, are looked at again.
+/// Blocks of cells whose distances differ by this factor, or whose light by this part of the whole, are
+/// looked at again.
 constexpr float kDistanceContrast = 1.5f, kLightContrast = 0.1f;
 
 uint64_t mix(uint64_t a, uint64_t b) {
@@ -29,28 +32,6 @@ uint64_t mix(uint64_t a, std::string_view text) {
 
 } // namespace
 
-/// Rays on their way, as structures of arrays.
-struct HemisphereSampler::Rays {
-  std::vector<float> origin[3], direction[3], direction_du[3], direction_dv[3], still[3], max_distance, bias, distance,
-      colour[3], weight[3];
-  std::vector<uint32_t> point, sample;
-  std::vector<Cell*> cell;
-  std::vector<size_t> index; ///< of the point among those being sampled
-
-  void clear() {
-    for (auto* planes : {origin, direction, direction_du, direction_dv, still, colour, weight})
-      for (int c = 0; c < 3; ++c)
-        planes[c].clear();
-    max_distance.clear();
-    bias.clear();
-    point.clear();
-    sample.clear();
-    cell.clear();
-    index.clear();
-  }
-  size_t size() const { return cell.size(); }
-};
-
 HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState& state,
                                      const slvm::HemisphereQuery& query, bool interpolated)
     : tracer_(tracer), state_(state), query_(query), shooter_(tracer.shooter(state, query.rays)),
@@ -64,11 +45,11 @@ HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState
   for (float x : {query.samples, query.min_samples, query.falloff, f.depth, f.specular_depth, f.diffuse_depth,
                   f.most_specular_depth, f.most_diffuse_depth})
     h = mix(h, x);
-  for (std::string_view text : {query.rays.label, query.rays.subset, query.environment_map, query.environment_space,
-                                std::string_view(f.type)})
+  for (std::string_view text : {query.rays.label, query.rays.subset, query.environment_map,
+                                query.environment_space, std::string_view(f.type)})
     h = mix(h, text);
-  for (bool flag : {query.cosine, query.falloff_is_power, query.radiance[0] != nullptr, interpolated, wants_light_,
-                    query.environment_colour[0] != nullptr})
+  for (bool flag : {query.cosine, query.falloff_is_power, query.radiance[0] != nullptr, interpolated,
+                    wants_light_, query.environment_colour[0] != nullptr})
     h = mix(h, uint64_t{flag});
   const RayAttributes& a = shooter_.attributes;
   h = mix(mix(h, uint64_t(query.rays.sides) * 8 + uint64_t(query.rays.mode)), a.bias);
@@ -92,8 +73,8 @@ uint64_t HemisphereSampler::seed_of(const HemispherePoint& p) const {
 
 Vec3 HemisphereSampler::aim(const HemispherePoint& p, uint64_t seed, int cell, Vec3& origin) const {
   uint64_t h = mix(seed, uint64_t(cell));
-  HemisphereDirection d = direction_in(pattern_, cell / pattern_.sectors, cell % pattern_.sectors, upper_unit(h),
-                                       lower_unit(h), p.cone, query_.cosine);
+  HemisphereDirection d = direction_in(pattern_, cell / pattern_.sectors, cell % pattern_.sectors,
+                                       upper_unit(h), lower_unit(h), p.cone, query_.cosine);
   Vec3 x, y;
   basis_about(p.N, x, y);
   float sine = std::sqrt(std::max(0.0f, 1 - d.cosine * d.cosine));
@@ -117,8 +98,8 @@ int HemisphereSampler::chosen_cell(int block, uint64_t seed) const {
 namespace {
 
 template <class RaysT, class CellT>
-void push_ray(RaysT& rays, const HemispherePoint& p, size_t index, Vec3 origin, Vec3 direction, float spread, int sample,
-              Color weight, CellT* cell) {
+void push_ray(RaysT& rays, const HemispherePoint& p, size_t index, Vec3 origin, Vec3 direction, float spread,
+              int sample, Color weight, CellT* cell) {
   Vec3 x, y;
   basis_about(direction, x, y);
   for (int c = 0; c < 3; ++c) {
@@ -162,10 +143,12 @@ void HemisphereSampler::first_rays(std::span<const HemispherePoint> points, Rays
 
 bool HemisphereSampler::differs(const Cell& a, const Cell& b) const {
   if ((a.distance == kInfinity) != (b.distance == kInfinity)) return true;
-  if (a.distance != kInfinity && std::max(a.distance, b.distance) > kDistanceContrast * std::min(a.distance, b.distance))
+  if (a.distance != kInfinity &&
+      std::max(a.distance, b.distance) > kDistanceContrast * std::min(a.distance, b.distance))
     return true;
   for (int c = 0; c < 3; ++c)
-    if (std::abs(a.light[c] - b.light[c]) > kLightContrast * std::max({a.light[c], b.light[c], 0.1f})) return true;
+    if (std::abs(a.light[c] - b.light[c]) > kLightContrast * std::max({a.light[c], b.light[c], 0.1f}))
+      return true;
   return false;
 }
 
@@ -181,9 +164,11 @@ void HemisphereSampler::more_rays(std::span<const HemispherePoint> points, Rays&
       int row = b / across, column = b % across;
       const Cell& own = cells[chosen_cell(b, seed)];
       auto other = [&](int r, int c) {
-        return r >= 0 && r < down && differs(own, cells[chosen_cell(r * across + (c + across) % across, seed)]);
+        return r >= 0 && r < down &&
+               differs(own, cells[chosen_cell(r * across + (c + across) % across, seed)]);
       };
-      if (other(row - 1, column) || other(row + 1, column) || other(row, column - 1) || other(row, column + 1))
+      if (other(row - 1, column) || other(row + 1, column) || other(row, column - 1) ||
+          other(row, column + 1))
         wanted.push_back(b);
     }
     for (int b : wanted)
@@ -206,111 +191,8 @@ float HemisphereSampler::blocked_by(const HemispherePoint& p, float distance) co
              : 1.0f;
 }
 
-/// Where it is enough to know whether there is anything.
-void HemisphereSampler::cast_blocked(std::span<const HemispherePoint> points, Rays& rays) {
-  RayGeometry& g = tracer_.geometry();
-  RayRule rule{g.seen(query_.rays.kind, query_.rays.subset), query_.rays.sides};
-  slvm::RayBatch batch;
-  for (int c = 0; c < 3; ++c) {
-    batch.origin[c] = rays.origin[c].data();
-    batch.direction[c] = rays.direction[c].data();
-  }
-  batch.max_distance = rays.max_distance.data();
-  batch.bias = rays.bias.data();
-  batch.point = rays.point.data();
-  batch.sample = rays.sample.data();
-  {
-    auto tracing = g.tracing();
-    for (size_t i = 0; i < rays.size(); ++i)
-      if (g.world().any(rule, tracer_.segment(shooter_, query_.rays, batch, i))) {
-        rays.cell[i]->blocked = 1;
-        rays.cell[i]->distance = points[rays.index[i]].max_distance; // any number
-      }
-  }
-  for (Cell* cell : rays.cell)
-    if (cell->blocked > 0 && cell->distance == kInfinity) cell->distance = 1;
-  g.trim();
-}
-
-void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays) {
-  tracer_.hemisphere_rays_ += rays.size();
-  if (!interpolated_ && !wants_light_ && query_.falloff == 0 && pattern_.blocks() == pattern_.cells())
-    cast_blocked(points, rays);
-  else {
-    slvm::RayBatch batch;
-    batch.count = rays.size();
-    slvm::RayOutput light;
-    light.from = slvm::RayOutput::From::kShaded;
-    light.name = "Ci";
-    light.type = slvm::Type::kColor;
-    std::vector<float> colours(3 * rays.size());
-    light.data = colours.data();
-    light.pitch = rays.size();
-    for (int c = 0; c < 3; ++c) {
-      batch.origin[c] = rays.origin[c].data();
-      batch.direction[c] = rays.direction[c].data();
-      batch.origin_du[c] = batch.origin_dv[c] = rays.still[c].data();
-      batch.direction_du[c] = rays.direction_du[c].data();
-      batch.direction_dv[c] = rays.direction_dv[c].data();
-      if (query_.weight[c]) batch.weight[c] = rays.weight[c].data();
-    }
-    batch.max_distance = rays.max_distance.data();
-    batch.bias = rays.bias.data();
-    batch.point = rays.point.data();
-    batch.sample = rays.sample.data();
-    rays.distance.resize(rays.size());
-    tracer_.trace(state_, query_.rays, batch, {&light, wants_light_ ? size_t{1} : size_t{0}}, rays.distance.data(),
-                  nullptr);
-    tracer_.rays_ -= rays.size();
-    for (size_t i = 0; i < rays.size(); ++i) {
-      Cell& cell = *rays.cell[i];
-      float d = rays.distance[i];
-      cell.distance = d == slvm::kNotShot ? kInfinity : d;
-      cell.blocked = blocked_by(points[rays.index[i]], cell.distance);
-      if (cell.distance < kInfinity) cell.light = {colours[i], colours[rays.size() + i], colours[2 * rays.size() + i]};
-    }
-  }
-  if (wants_map_) look_up_map(rays);
-}
-
-void HemisphereSampler::look_up_map(Rays& rays) {
-  slvm::TextureServices* textures = tracer_.services_.textures();
-  if (!textures) {
-    problem_ = "there are no textures here";
-    return;
-  }
-  slvm::TextureLookup lookup;
-  lookup.map = query_.environment_map;
-  lookup.channels = 3;
-  lookup.points = rays.size();
-  std::vector<uint64_t> mask(rays.size() / 64 + 1);
-  std::vector<float> result[3];
-  for (size_t i = 0; i < rays.size(); ++i) {
-    if (rays.cell[i]->distance == kInfinity) mask[i / 64] |= uint64_t{1} << (i % 64);
-    Vec3 planes[3];
-    const std::vector<float>* from[3] = {rays.direction, rays.direction_du, rays.direction_dv};
-    for (size_t k = 0; k < 3; ++k)
-      planes[k] = transform_vector(to_map_, Vec3(from[k][0][i], from[k][1][i], from[k][2][i]));
-    for (int c = 0; c < 3; ++c) {
-      lookup.centre[c].push_back(planes[0][c]);
-      lookup.along_u[c].push_back(planes[1][c]);
-      lookup.along_v[c].push_back(planes[2][c]);
-    }
-  }
-  lookup.mask = mask.data();
-  for (size_t c = 0; c < 3; ++c) {
-    result[c].resize(rays.size());
-    lookup.result[c] = result[c].data();
-  }
-  if (std::string why = textures->environment(lookup); !why.empty()) problem_ = why;
-  for (size_t i = 0; i < rays.size(); ++i)
-    if (lookup.active(i)) {
-      rays.cell[i]->map = {result[0][i], result[1][i], result[2][i]};
-      rays.cell[i]->light = rays.cell[i]->map;
-    }
-}
-
-/// Cells that were left out are like the one of their block that was not; of a block with several, all were shot.
+/// Cells that were left out are like the one of their block that was not; of a block with several, all were
+/// shot.
 void HemisphereSampler::spread_blocks(Cell* cells) const {
   int across = pattern_.sectors / pattern_.sector_block;
   for (int b = 0; b < pattern_.blocks(); ++b) {
@@ -353,8 +235,8 @@ void HemisphereSampler::finish(const HemispherePoint& p, Cell* cells, Hemisphere
   if (interpolated_ && query_.cosine && p.cone <= kPi / 2 + 1e-4f) gradients(p, cells, out);
 }
 
-/// Ward and Heckbert 1992, equations for the rotation and the translation gradient, for means instead of integrals; turns
-/// are about right-handed axes.
+/// Ward and Heckbert 1992, equations for the rotation and the translation gradient, for means instead of
+/// integrals; turns are about right-handed axes.
 void HemisphereSampler::gradients(const HemispherePoint& p, const Cell* cells, HemisphereSample& out) const {
   const int M = pattern_.rings, N = pattern_.sectors;
   float reach = std::sin(std::min(p.cone, kPi / 2));

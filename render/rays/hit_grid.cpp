@@ -11,8 +11,8 @@ namespace {
 
 using slvm::Global;
 
-/// The surface is evaluated this far from a hit, at least and at most, in its parameters; what is farther or nearer is
-/// extrapolated.
+/// The surface is evaluated this far from a hit, at least and at most, in its parameters; what is farther or
+/// nearer is extrapolated.
 constexpr float kLeastStep = 1.0f / 8192, kMostStep = 1.0f / 16;
 /// How far from the ray a hit may be, by its distance: about half a pixel of a usual camera.
 constexpr float kNearEnough = 2e-4f;
@@ -37,8 +37,8 @@ Vec2 nearest_combination(Vec3 x, Vec3 y, Vec3 d) {
   return {0, dy / yy};
 }
 
-/// The point of the surface that lies nearest to `target`, from a place near it: faces are a little off the surface, and
-/// their own parameters off its.
+/// The point of the surface that lies nearest to `target`, from a place near it: faces are a little off the
+/// surface, and their own parameters off its.
 SurfaceSpot settle(const Primitive& primitive, Vec3 target, float tolerance, float& u, float& v,
                    SurfaceLattice& scratch) {
   constexpr int kRounds = 6;
@@ -70,7 +70,9 @@ float step_inside(float at, float wanted) {
 SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch) {
   primitive.geometry->evaluate({&u, 1}, {&v, 1}, scratch);
   const Matrix4& m = primitive.state->object_to_camera;
-  return {transform_point(m, scratch.P[0]), transform_vector(m, scratch.dPdu[0]), transform_vector(m, scratch.dPdv[0]),
+  return {transform_point(m, scratch.P[0]),
+          transform_vector(m, scratch.dPdu[0]),
+          transform_vector(m, scratch.dPdv[0]),
           {scratch.P[0], scratch.dPdu[0], scratch.dPdv[0], scratch.N[0]}};
 }
 
@@ -101,14 +103,16 @@ void HitGrid::find_spots(const Scene& scene, std::span<const HitRay> hits) {
     float u = hit.place.u, v = hit.place.v;
     Vec3 target = hit.origin + hit.direction * hit.distance;
     // Where faces are displaced they tell nothing about the surface below.
-    spots_.push_back(hit.place.displaced ? evaluate_spot(*p, u, v, scratch_) : settle(*p, target, kNearEnough * hit.distance, u, v, scratch_));
+    spots_.push_back(hit.place.displaced ? evaluate_spot(*p, u, v, scratch_)
+                                         : settle(*p, target, kNearEnough * hit.distance, u, v, scratch_));
     primitives_.push_back(p);
     u_.push_back(u);
     v_.push_back(v);
   }
 }
 
-/// The footprint as two sides of a parallelogram becomes steps along u and along v, and its sides in these steps.
+/// The footprint as two sides of a parallelogram becomes steps along u and along v, and its sides in these
+/// steps.
 void HitGrid::take_footprints(std::span<const HitRay> hits) {
   size_t n = hits.size();
   for (auto& plane : footprint_)
@@ -135,7 +139,8 @@ void HitGrid::take_footprints(std::span<const HitRay> hits) {
   }
 }
 
-void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside, const DiceContext& context) {
+void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside,
+                   const DiceContext& context) {
   size_t n = hits.size();
   u_.clear();
   v_.clear();
@@ -194,7 +199,8 @@ void HitGrid::set_steps(size_t n) {
 
 void HitGrid::aim(size_t lane) {
   const float* P = grid.variable(Global::kP).data;
-  set_point(grid.varying(Global::kI), grid.pitch(), lane, plane_point(P, grid.pitch(), lane) - origins_[lane]);
+  set_point(grid.varying(Global::kI), grid.pitch(), lane,
+            plane_point(P, grid.pitch(), lane) - origins_[lane]);
 }
 
 /// I, E and weights. A neighbour has the origin of the ray that would hit it.
@@ -240,7 +246,8 @@ void HitGrid::after_displacement(bool moved) {
     return;
   }
   size_t n = grid.samples(), pitch = grid.pitch();
-  float *dPdu = grid.varying(Global::kdPdu), *dPdv = grid.varying(Global::kdPdv), *Ng = grid.varying(Global::kNg);
+  float *dPdu = grid.varying(Global::kdPdu), *dPdv = grid.varying(Global::kdPdv),
+        *Ng = grid.varying(Global::kNg);
   const slvm::Planes &du = grid.variable(Global::kdu), &dv = grid.variable(Global::kdv);
   float sign = grid.flip_normals ? -1.0f : 1.0f;
   for (size_t k = 0; k < grid.points(); ++k) {

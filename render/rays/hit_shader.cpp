@@ -28,7 +28,9 @@ public:
   bool current_to_space(const slvm::ShadingState& s, std::string_view space, Matrix4& m) override {
     return all_.current_to_space(s, space, m);
   }
-  std::span<const slvm::Instance* const> lights(const slvm::ShadingState& s) override { return all_.lights(s); }
+  std::span<const slvm::Instance* const> lights(const slvm::ShadingState& s) override {
+    return all_.lights(s);
+  }
   bool attribute(const slvm::ShadingState& s, std::string_view name, slvm::Value& out) override {
     return all_.attribute(s, name, out);
   }
@@ -88,8 +90,9 @@ bool differentiates(const slvm::Instance* instance) {
   const slvm::Facts& f = instance->shader().program().facts;
   if (f.derivatives || f.textures) return true;
   // Rays that go on have footprints, too.
-  return f.rays && std::any_of(f.shadeops.begin(), f.shadeops.end(),
-                               [](const std::string& s) { return s == "trace" || s == "gather" || s == "traverse"; });
+  return f.rays && std::any_of(f.shadeops.begin(), f.shadeops.end(), [](const std::string& s) {
+           return s == "trace" || s == "gather" || s == "traverse";
+         });
 }
 
 bool uses_eye(const slvm::Instance* instance) {
@@ -206,7 +209,8 @@ bool HitShader::displaces(const Primitive& p) const {
   return set_of(p).displacement != nullptr;
 }
 
-void HitShader::positions(const Primitive& primitive, const UvRect& rect, int nu, int nv, std::vector<Vec3>& P) {
+void HitShader::positions(const Primitive& primitive, const UvRect& rect, int nu, int nv,
+                          std::vector<Vec3>& P) {
   WorkerLease lease(*this, true);
   slvm::Grid& grid = (*lease).lattice;
   GridTask task;
@@ -228,13 +232,14 @@ uint32_t HitShader::group_of(uint32_t primitive) {
   const Primitive& p = scene_.primitives[primitive];
   Groups::Key key{&p.attributes(), p.state->object_to_camera.m, Groups::variables_of(p)};
   auto [it, is_new] = groups_->numbers.try_emplace(std::move(key), 0);
-  // The first primitive of the group: a number that does not depend on what was hit first is not needed, as the order
-  // of groups changes no result; that all points of a grid are of one group does.
+  // The first primitive of the group: a number that does not depend on what was hit first is not needed, as
+  // the order of groups changes no result; that all points of a grid are of one group does.
   if (is_new) it->second = static_cast<uint32_t>(groups_->numbers.size());
   return known = it->second;
 }
 
-/// By group, then primitive, then ray. Groups are in the order of their first hits here, whatever their numbers.
+/// By group, then primitive, then ray. Groups are in the order of their first hits here, whatever their
+/// numbers.
 void HitShader::sort(std::vector<HitRay>& hits) {
   struct Key {
     uint32_t order, primitive, index;
@@ -263,7 +268,8 @@ void HitShader::sort(std::vector<HitRay>& hits) {
   hits = std::move(sorted);
 }
 
-void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch, std::span<const slvm::RayOutput> outputs) {
+void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
+                      std::span<const slvm::RayOutput> outputs) {
   if (hits.empty() || outputs.empty()) return;
   sort(hits);
   Demand demand(outputs, batch.shades);
@@ -302,9 +308,10 @@ void look_like_primitive(slvm::Grid& grid) {
     }
 }
 
-/// Takes the outputs of one kind from a grid: parameters of the shader, predefined variables, primitive variables.
-void take(const slvm::ShadingContext& context, const slvm::Grid& grid, const slvm::Instance* shader, From from,
-          std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs) {
+/// Takes the outputs of one kind from a grid: parameters of the shader, predefined variables, primitive
+/// variables.
+void take(const slvm::ShadingContext& context, const slvm::Grid& grid, const slvm::Instance* shader,
+          From from, std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs) {
   for (const slvm::RayOutput& out : outputs) {
     if (out.from != from) continue;
     const slvm::Planes* planes = shader ? context.output(*shader, out.name) : nullptr;
@@ -343,7 +350,8 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
   if (!demand.displacement || plain) set.displacement = nullptr;
   if (!surface) set.surface = nullptr;
   if (!demand.atmosphere || plain) set.atmosphere = nullptr;
-  bool beside = differentiates(set.displacement) || differentiates(set.surface) || differentiates(set.atmosphere);
+  bool beside =
+      differentiates(set.displacement) || differentiates(set.surface) || differentiates(set.atmosphere);
   for (const slvm::Instance* light : shaders_.find(&primitive.attributes())->lights)
     beside = beside || (set.surface && differentiates(light));
   slvm::Grid& grid = worker.hits.grid;

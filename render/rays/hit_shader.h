@@ -1,5 +1,5 @@
-// Runs the shaders of what rays hit: hits are put in order of their shaders and primitives, shaded as grids of a few
-// hundred points, and what the rays' shader wants to know is taken from these grids.
+// Runs the shaders of what rays hit: hits are put in order of their shaders and primitives, shaded as grids
+// of a few hundred points, and what the rays' shader wants to know is taken from these grids.
 #pragma once
 
 #include "render/rays/hit_grid.h"
@@ -24,10 +24,10 @@ struct HitBatch {
 
 class HitShader final : public Displacer {
 public:
-  /// All arguments must outlive this. `services` is what shaders at hits ask; `quiet` the same without rays, for
-  /// displacement shaders that run while faces are made.
-  HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine, const BoundShaders& shaders,
-            slvm::RendererServices& services);
+  /// All arguments must outlive this. `services` is what shaders at hits ask; `quiet` the same without rays,
+  /// for displacement shaders that run while faces are made.
+  HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
+            const BoundShaders& shaders, slvm::RendererServices& services);
   ~HitShader() override;
 
   /// Shades hits (and reorders them) and stores the outputs of each at its ray.
@@ -64,7 +64,8 @@ private:
   std::mutex workers_mutex_;
   std::vector<std::unique_ptr<Worker>> idle_, idle_displacers_;
   std::mutex groups_mutex_;
-  std::vector<uint32_t> group_; ///< by primitive: number of the group that can be diced together; 0: not known yet
+  std::vector<uint32_t>
+      group_; ///< by primitive: number of the group that can be diced together; 0: not known yet
   struct Groups;
   std::unique_ptr<Groups> groups_;
   std::atomic<size_t> grids_{0}, points_{0};

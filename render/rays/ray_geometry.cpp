@@ -1,4 +1,5 @@
-// Gathering primitives into items is in gather_items.cpp; here is what happens to items while rays are traced.
+// Gathering primitives into items is in gather_items.cpp; here is what happens to items while rays are
+// traced.
 #include "render/rays/ray_geometry.h"
 
 #include "render/prims/motion.h"
@@ -87,12 +88,14 @@ bool RayGeometry::same_surface(uint32_t index, uint32_t face, uint32_t other) co
   const Item& item = *items_[index];
   auto state = [&](uint32_t f) {
     auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), f);
-    return scene_.primitives[item.primitives[static_cast<size_t>(after - item.first_face.begin()) - 1]].state.get();
+    return scene_.primitives[item.primitives[static_cast<size_t>(after - item.first_face.begin()) - 1]]
+        .state.get();
   };
   return state(face) == state(other);
 }
 
-/// A subset names groups that are seen, or, with "-", groups that are not; with only the latter all others are.
+/// A subset names groups that are seen, or, with "-", groups that are not; with only the latter all others
+/// are.
 bool RayGeometry::group_is_in(uint32_t groups, std::string_view subset) const {
   std::vector<std::string_view> members = words_of(groups_[groups]);
   bool wanted = false, any_wanted = false;

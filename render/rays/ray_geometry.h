@@ -1,10 +1,10 @@
 // All that rays can hit in a scene, made on demand.
 //
-// Primitives that rays treat alike are gathered into items of neighbours, up to a few hundred thousand faces each; the
-// world (embree_world.h) knows their boxes. An item's faces are made when the first ray reaches its box, by the thread
-// of that ray, and dropped again, the longest unused first, when all faces together take more memory than allowed.
-// Faces depend on the scene only, never on which ray asked, so that nothing else depends on when they were made.
-// Objects that are instanced share the faces of their first instance.
+// Primitives that rays treat alike are gathered into items of neighbours, up to a few hundred thousand faces
+// each; the world (embree_world.h) knows their boxes. An item's faces are made when the first ray reaches its
+// box, by the thread of that ray, and dropped again, the longest unused first, when all faces together take
+// more memory than allowed. Faces depend on the scene only, never on which ray asked, so that nothing else
+// depends on when they were made. Objects that are instanced share the faces of their first instance.
 #pragma once
 
 #include "render/rays/tessellate.h"
@@ -41,7 +41,8 @@ struct SurfacePlace {
 class RayGeometry final : public ItemFaces {
 public:
   /// All arguments must outlive this. `displacer` may be null.
-  RayGeometry(const Scene& scene, const Camera& camera, Displacer* displacer, RayGeometrySettings settings = {});
+  RayGeometry(const Scene& scene, const Camera& camera, Displacer* displacer,
+              RayGeometrySettings settings = {});
   ~RayGeometry() override;
 
   const RayWorld& world() const { return *world_; }

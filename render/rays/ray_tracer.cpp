@@ -39,19 +39,23 @@ RayTracer::RayTracer(const Scene& scene, const slvm::Machine& machine, const Bou
   min_weight_ = number_option(scene.options, "trace:minweight", 0);
   max_depth_ = number_option(scene.options, "trace:maxdepth", 10);
   float kilobytes = number_option(scene.options, "limits:geocachememory", 1 << 20);
-  if (kilobytes > 0 && kilobytes < 1e9f) geometry_settings_.most_bytes = static_cast<size_t>(kilobytes) * 1024;
+  if (kilobytes > 0 && kilobytes < 1e9f)
+    geometry_settings_.most_bytes = static_cast<size_t>(kilobytes) * 1024;
 }
 
 RayTracer::~RayTracer() = default;
 
 RayGeometry& RayTracer::geometry() {
-  std::call_once(geometry_made_,
-                 [&] { geometry_ = std::make_unique<RayGeometry>(scene_, camera_, &hits_, geometry_settings_); });
+  std::call_once(geometry_made_, [&] {
+    geometry_ = std::make_unique<RayGeometry>(scene_, camera_, &hits_, geometry_settings_);
+  });
   return *geometry_;
 }
 
-/// The deepest rays of a kind: as the object that shoots allows, counted from where it is, and as those before it do.
-RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state, const slvm::RayOptions& options) const {
+/// The deepest rays of a kind: as the object that shoots allows, counted from where it is, and as those
+/// before it do.
+RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state,
+                                      const slvm::RayOptions& options) const {
   const slvm::RayFacts& facts = state.grid.ray;
   Shooter out{state, facts, attributes_of(state.grid), facts};
   auto limit = [](float before, float depth, int allowed) {
@@ -60,11 +64,13 @@ RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state, const slv
   slvm::RayFacts& next = out.next;
   next.most_specular_depth =
       limit(facts.most_specular_depth, facts.specular_depth, out.attributes.max_specular_depth);
-  next.most_diffuse_depth = limit(facts.most_diffuse_depth, facts.diffuse_depth, out.attributes.max_diffuse_depth);
+  next.most_diffuse_depth =
+      limit(facts.most_diffuse_depth, facts.diffuse_depth, out.attributes.max_diffuse_depth);
   switch (options.kind) {
   case slvm::RayKind::kSpecular:
     // Mirrors are not looked into by the way of diffuse rays.
-    out.may_shoot = facts.specular_depth < next.most_specular_depth && !(facts.type == "diffuse" && options.shades);
+    out.may_shoot =
+        facts.specular_depth < next.most_specular_depth && !(facts.type == "diffuse" && options.shades);
     ++next.specular_depth;
     break;
   case slvm::RayKind::kDiffuse:
@@ -82,23 +88,24 @@ RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state, const slv
   return out;
 }
 
-RaySegment RayTracer::segment(const Shooter& shooter, const slvm::RayOptions& options, const slvm::RayBatch& batch,
-                              size_t ray) const {
+RaySegment RayTracer::segment(const Shooter& shooter, const slvm::RayOptions& options,
+                              const slvm::RayBatch& batch, size_t ray) const {
   RaySegment out;
   out.origin = point_of(batch.origin, ray);
   out.direction = point_of(batch.direction, ray);
   out.nearest = batch.bias && batch.bias[ray] >= 0 ? batch.bias[ray] : shooter.attributes.bias;
   if (batch.max_distance) out.farthest = batch.max_distance[ray];
   if (shooter.attributes.sample_motion && scene_.options.shutter_close > scene_.options.shutter_open) {
-    uint64_t place = hash_of(batch.point ? batch.point[ray] : 0, batch.sample ? batch.sample[ray] : 0, kRayTime);
-    out.time = upper_unit(hash_of(static_cast<int64_t>(shooter.state.grid.id), static_cast<int64_t>(place),
-                                  options.seed));
+    uint64_t place =
+        hash_of(batch.point ? batch.point[ray] : 0, batch.sample ? batch.sample[ray] : 0, kRayTime);
+    out.time = upper_unit(
+        hash_of(static_cast<int64_t>(shooter.state.grid.id), static_cast<int64_t>(place), options.seed));
   }
   return out;
 }
 
-HitRay RayTracer::hit_ray(const Shooter& shooter, const slvm::RayBatch& batch, size_t ray, const RaySegment& segment,
-                          const RayHit& hit) {
+HitRay RayTracer::hit_ray(const Shooter& shooter, const slvm::RayBatch& batch, size_t ray,
+                          const RaySegment& segment, const RayHit& hit) {
   HitRay out;
   out.ray = static_cast<uint32_t>(ray);
   out.point = batch.point ? batch.point[ray] : static_cast<uint32_t>(ray);
@@ -117,8 +124,9 @@ HitRay RayTracer::hit_ray(const Shooter& shooter, const slvm::RayBatch& batch, s
   return out;
 }
 
-void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& options, const slvm::RayBatch& batch,
-                      std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors) {
+void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& options,
+                      const slvm::RayBatch& batch, std::span<const slvm::RayOutput> outputs, float* distance,
+                      slvm::RayCursor* cursors) {
   Shooter by = shooter(state, options);
   if (!by.may_shoot) {
     std::fill_n(distance, batch.count, slvm::kNotShot);
@@ -148,12 +156,14 @@ void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& o
   rays_ += batch.count;
   g.trim();
   uint64_t seed = hash_of(static_cast<int64_t>(state.grid.id), options.seed, kHits);
-  if (batch.sample && batch.count) seed = hash_of(static_cast<int64_t>(seed), batch.sample[0], batch.point ? batch.point[0] : 0);
+  if (batch.sample && batch.count)
+    seed = hash_of(static_cast<int64_t>(seed), batch.sample[0], batch.point ? batch.point[0] : 0);
   hits_.shade(hits, {state, options.kind, options.mode, options.shades, by.next, seed}, outputs);
 }
 
 RayUsage RayTracer::usage() const {
-  RayUsage out{rays_, shadow_rays_, hemisphere_rays_, hemispheres_, hits_.usage().grids, hits_.usage().points, {}};
+  RayUsage out{rays_, shadow_rays_, hemisphere_rays_, hemispheres_, hits_.usage().grids, hits_.usage().points,
+               {}};
   if (geometry_) out.geometry = geometry_->usage();
   return out;
 }

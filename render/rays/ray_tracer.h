@@ -1,8 +1,8 @@
 // slvm::RayServices over a scene: what shaders' rays see. One for each frame, used from all threads.
 //
-// Results are functions of the scene and the call: which thread asks first, or when, changes nothing. Rays are ended
-// here: by the depth limits of the objects they come from (Attribute "trace"), by Option "trace" "maxdepth", and where
-// they weigh less than Option "trace" "minweight".
+// Results are functions of the scene and the call: which thread asks first, or when, changes nothing. Rays
+// are ended here: by the depth limits of the objects they come from (Attribute "trace"), by Option "trace"
+// "maxdepth", and where they weigh less than Option "trace" "minweight".
 #pragma once
 
 #include "render/rays/hit_shader.h"
@@ -51,7 +51,8 @@ private:
   Shooter shooter(const slvm::ShadingState& state, const slvm::RayOptions& options) const;
   RaySegment segment(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&, size_t ray) const;
   HitRay hit_ray(const Shooter&, const slvm::RayBatch&, size_t ray, const RaySegment&, const RayHit&);
-  void shade_layers(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&, std::vector<struct LightPath>&);
+  void shade_layers(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
+                    std::vector<struct LightPath>&);
 
   const Scene& scene_;
   slvm::RendererServices& services_;

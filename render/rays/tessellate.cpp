@@ -11,8 +11,8 @@ namespace {
 
 /// Segments of the lattice a primitive is measured by.
 constexpr int kProbes = 4;
-/// Distance between face and surface, in pixels at its place in the picture, at most; less, for the sake of the bias,
-/// but not without end.
+/// Distance between face and surface, in pixels at its place in the picture, at most; less, for the sake of
+/// the bias, but not without end.
 constexpr float kDeviation = 0.25f, kLeastDeviation = 1.0f / 32, kPartOfBias = 0.25f;
 /// Of a displaced surface: the side of a face in micropolygons.
 constexpr float kDisplacedStep = 2;
@@ -106,7 +106,8 @@ FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced) 
       box.add(P[k]);
       measure(u, k, 1, i);
       measure(v, k, n, j);
-      if (i < kProbes && j < kProbes) twist = std::max(twist, out_of_plane(P[k], P[k + 1], P[k + n], P[k + n + 1]));
+      if (i < kProbes && j < kProbes)
+        twist = std::max(twist, out_of_plane(P[k], P[k + 1], P[k + n], P[k + n + 1]));
     }
   nearest = glm::clamp(Vec3(0.0f), box.min, box.max);
   float pixel = pixel_size(camera, nearest);
@@ -115,13 +116,16 @@ FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced) 
     float step = pixel * std::sqrt(a.shading_rate) * kDisplacedStep;
     return {power_of_two(u.length / step), power_of_two(v.length / step)};
   }
-  float tolerance = std::max(std::min(kDeviation * pixel, kPartOfBias * a.rays.bias), kLeastDeviation * pixel);
-  // A chord leaves an arc by an eighth of the second difference; it falls with the square of their number. The two
-  // triangles of a twisted face leave it by a quarter of the twist, which falls with both numbers.
+  float tolerance =
+      std::max(std::min(kDeviation * pixel, kPartOfBias * a.rays.bias), kLeastDeviation * pixel);
+  // A chord leaves an arc by an eighth of the second difference; it falls with the square of their number.
+  // The two triangles of a twisted face leave it by a quarter of the twist, which falls with both numbers.
   auto segments = [&](float bend) { return kProbes * std::sqrt(bend / 8 / tolerance); };
   float twisted = kProbes * std::sqrt(twist / 4 / tolerance);
   bool flat = twist < 1e-5f * (u.length + v.length);
-  auto rate = [&](const Extent& e) { return power_of_two(std::max(segments(e.bend), flat ? 0.0f : twisted)); };
+  auto rate = [&](const Extent& e) {
+    return power_of_two(std::max(segments(e.bend), flat ? 0.0f : twisted));
+  };
   FaceRate out{rate(u), rate(v)};
   // Closed surfaces must not fall together.
   auto fewest = p.geometry->coarsest();

@@ -1,9 +1,10 @@
 // Primitives as faces for rays: one lattice of quadrilaterals over the whole parameter square of each.
 //
-// How fine: rays see these faces by the way of other surfaces, and the surface itself is evaluated where they hit; what
-// matters is that outlines look smooth and that faces are nearer to the surface than the bias of rays that start on it.
-// So the measure is the distance between face and surface, not the size of faces: a plane takes one of them. Where a
-// displacement shader moves the points, faces are about two micropolygons wide.
+// How fine: rays see these faces by the way of other surfaces, and the surface itself is evaluated where they
+// hit; what matters is that outlines look smooth and that faces are nearer to the surface than the bias of
+// rays that start on it. So the measure is the distance between face and surface, not the size of faces: a
+// plane takes one of them. Where a displacement shader moves the points, faces are about two micropolygons
+// wide.
 #pragma once
 
 #include "render/prims/primitive.h"
@@ -41,8 +42,8 @@ FaceRate measure_rate(const Primitive&, const Camera&, bool displaced);
 void even_out(std::span<FaceRate> rates);
 
 /// Appends the faces of a primitive as it stands at `times` moments. `to_item` is applied to the points.
-void tessellate(const Primitive&, FaceRate, Displacer* displacer, std::span<const float> times, const Matrix4* to_item,
-                std::vector<QuadMesh>& parts);
+void tessellate(const Primitive&, FaceRate, Displacer* displacer, std::span<const float> times,
+                const Matrix4* to_item, std::vector<QuadMesh>& parts);
 
 /// All parts in one.
 QuadMesh joined(std::span<const QuadMesh> parts, size_t times);

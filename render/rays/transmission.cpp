@@ -15,7 +15,7 @@ struct LightPath {
   Color through{1.0f};
   std::vector<RayHit> layers; ///< nearest first; those from `next` on are not looked at yet
   size_t next = 0;
-  slvm::RayCursor end; ///< the last layer that was looked for
+  slvm::RayCursor end;   ///< the last layer that was looked for
   bool complete = false; ///< there are no layers behind
 };
 

@@ -42,7 +42,8 @@ void Interpreter::attribute(const RequestCall& call) {
   }
   if (category == "displacementbound")
     displacement_bound(call);
-  else if (!known && category != "user" && category != "identifier" && category != "trimcurve" && category != "cull")
+  else if (!known && category != "user" && category != "identifier" && category != "trimcurve" &&
+           category != "cull")
     warn_once("Attribute " + category, call.where, "rib-unsupported",
               fmt::format("Attribute \"{}\" has no effect yet (shaders can read its values)", category));
 }

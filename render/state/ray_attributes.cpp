@@ -109,8 +109,8 @@ std::vector<std::string_view> words_of(std::string_view list) {
   return out;
 }
 
-std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view category, std::string_view name,
-                                             const slvm::Value& value) {
+std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view category,
+                                             std::string_view name, const slvm::Value& value) {
   if (category == "visibility") return set_visibility(a, name, value);
   if (category == "trace") return set_trace(a, name, value);
   if (category == "shade") return set_shade(a, name, value);

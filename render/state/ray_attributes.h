@@ -1,5 +1,6 @@
-// What rays see of an object and what its own rays are like: Attributes "visibility", "trace", "shade", "grouping" and
-// "irradiance". Names and defaults of PRMan 12, and the older forms of "visibility" beside them.
+// What rays see of an object and what its own rays are like: Attributes "visibility", "trace", "shade",
+// "grouping" and "irradiance". Names and defaults of PRMan 12, and the older forms of "visibility" beside
+// them.
 #pragma once
 
 #include "slvm/value.h"
@@ -33,18 +34,17 @@ struct RayAttributes {
   /// "grouping" "membership": names with single spaces between.
   std::string groups;
 
-  bool seen_by_rays() const {
-    return specular || diffuse || transmission != RayOpacity::kTransparent;
-  }
+  bool seen_by_rays() const { return specular || diffuse || transmission != RayOpacity::kTransparent; }
   /// `transmission`, where "shade" "transmissionhitmode" "primitive" spares the shaders.
   RayOpacity shadow() const {
     return transmission == RayOpacity::kShader && !transmission_shaded ? RayOpacity::kOs : transmission;
   }
 };
 
-/// Takes a parameter of Attribute `category`. Nothing: it is none of these. Else "" or what is wrong with the value.
-std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view category, std::string_view name,
-                                             const slvm::Value& value);
+/// Takes a parameter of Attribute `category`. Nothing: it is none of these. Else "" or what is wrong with the
+/// value.
+std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view category,
+                                             std::string_view name, const slvm::Value& value);
 
 /// The words of a list apart by spaces or commas.
 std::vector<std::string_view> words_of(std::string_view list);

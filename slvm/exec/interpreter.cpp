@@ -136,7 +136,22 @@ void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<con
   grid_operands_.clear();
   for (const CallOperand& o : decoded_)
     grid_operands_.push_back({operand(f, o.word), o.type, operand_space(o.word) == Space::kArray, o.store});
+  const size_t samples = state.grid->samples();
+  if (!(info.flags & kRays) || samples == points) return target.grid_op({*this, info, grid_operands_, level, pc});
+  // Of hits, the points beside shoot no rays of their own: what those of the hit bring holds for them, too.
+  entered_.assign(mask.words(), 0);
+  for (size_t i = 0; i < entered_.size(); ++i)
+    entered_[i] = full_mask_word(i, samples);
+  mask.push_if(entered_.data());
   target.grid_op({*this, info, grid_operands_, level, pc});
+  mask.pop_if();
+  for (const GridOperand& o : grid_operands_) {
+    if (!o.store || !o.planes.step) continue;
+    const size_t planes = static_cast<size_t>(components(o.type)) * (o.array ? o.planes.elements : 1);
+    for (size_t c = 0; c < planes; ++c)
+      for (size_t i = samples; i < points; ++i)
+        o.planes.plane(c)[i] = o.planes.plane(c)[i % samples];
+  }
 }
 
 void ShaderRun::run_code(Frame& frame, uint32_t pc) {

@@ -1,6 +1,6 @@
-// What rays cost beside bare Embree, and what shading their hits costs beside one dense grid. Both sides run in turn in
-// one process, on one thread; results are compared before anything is timed. Usage: rays_bench [test | shade]: "test" compares only,
-// "shade" leaves out Embree.
+// What rays cost beside bare Embree, and what shading their hits costs beside one dense grid. Both sides run
+// in turn in one process, on one thread; results are compared before anything is timed. Usage: rays_bench
+// [test | shade]: "test" compares only, "shade" leaves out Embree.
 #include "slvm/format/slo.h"
 #include "tests/render/rays/ray_scene.h"
 
@@ -37,10 +37,12 @@ template <class F> double seconds_of(F&& f) {
 
 /// 16 x 16 balls on a floor: about a million triangles.
 std::string balls() {
-  std::string rib = "Format 1000 1000 1 Projection \"perspective\" \"fov\" 40 WorldBegin Attribute \"visibility\" \"trace\" 1 "
+  std::string rib = "Format 1000 1000 1 Projection \"perspective\" \"fov\" 40 WorldBegin Attribute "
+                    "\"visibility\" \"trace\" 1 "
                     "Attribute \"trace\" \"float bias\" .003 Surface \"shiny\" Translate 0 -3 14 ";
   for (int i = 0; i < 256; ++i)
-    rib += fmt::format("TransformBegin Translate {} .4 {} Sphere .4 -.4 .4 360 TransformEnd ", i % 16 - 7.5, i / 16 - 3);
+    rib += fmt::format("TransformBegin Translate {} .4 {} Sphere .4 -.4 .4 360 TransformEnd ", i % 16 - 7.5,
+                       i / 16 - 3);
   return rib + "Polygon \"P\" [-20 0 -20 20 0 -20 20 0 40 -20 0 40] WorldEnd";
 }
 
@@ -51,7 +53,8 @@ struct Rays {
 
   void add(Vec3 p, Vec3 n, int samples, std::mt19937& random) {
     std::uniform_real_distribution<float> unit;
-    Vec3 x = glm::normalize(glm::cross(n, std::abs(n.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0))), y = glm::cross(n, x);
+    Vec3 x = glm::normalize(glm::cross(n, std::abs(n.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0))),
+         y = glm::cross(n, x);
     auto number = static_cast<uint32_t>(point.empty() ? 0 : point.back() + 1);
     for (int i = 0; i < samples; ++i) {
       float r2 = unit(random), a = 6.2831853f * unit(random), r = std::sqrt(r2);
@@ -90,7 +93,8 @@ Rays occlusion_rays() {
 /// All faces of the scene in one scene of triangles.
 class BareEmbree {
 public:
-  explicit BareEmbree(const render::Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+  explicit BareEmbree(const render::Scene& scene)
+      : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
     render::Camera camera(scene.options);
     std::vector<render::QuadMesh> parts;
     const float open[] = {0};
@@ -100,11 +104,13 @@ public:
     triangles = 2 * mesh.faces.size();
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* v = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.points.size()));
+    auto* v = static_cast<float*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.points.size()));
     for (Vec3 p : mesh.points)
       for (int c = 0; c < 3; ++c)
         *v++ = p[c];
-    auto* index = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles));
+    auto* index = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles));
     for (const auto& f : mesh.faces)
       for (uint32_t k : {f[0], f[1], f[3], f[2], f[3], f[1]})
         *index++ = k;
@@ -187,16 +193,18 @@ bool compare_with_embree(bool measure) {
 }
 
 // A shader of usual cost: noise, a lamp, a highlight.
-constexpr const char* kShiny = "surface shiny() { float n = 0, a = 1; uniform float i; point q = P * 4;"
-                               "for (i = 0; i < 4; i += 1) { n += a * noise(q); q *= 2; a *= .5; }"
-                               "vector L = normalize(vector(1,2,-1)), V = normalize(-I); normal Nf = faceforward(normalize(N), I);"
-                               "Oi = Os; Ci = Cs * (.1 + max(0, Nf.L)) * n + pow(max(0, Nf.normalize(L + V)), 20); }";
+constexpr const char* kShiny =
+    "surface shiny() { float n = 0, a = 1; uniform float i; point q = P * 4;"
+    "for (i = 0; i < 4; i += 1) { n += a * noise(q); q *= 2; a *= .5; }"
+    "vector L = normalize(vector(1,2,-1)), V = normalize(-I); normal Nf = faceforward(normalize(N), I);"
+    "Oi = Os; Ci = Cs * (.1 + max(0, Nf.L)) * n + pow(max(0, Nf.normalize(L + V)), 20); }";
 
 void compare_with_grid() {
   for (bool textured : {false, true}) {
     std::string shader = kShiny;
     if (textured) shader.insert(shader.find("Oi = Os"), "n *= 1 + .001 * Du(n) * du;");
-    RayScene s("Format 500 500 1 Projection \"perspective\" \"fov\" 40 WorldBegin Attribute \"visibility\" \"trace\" 1 "
+    RayScene s("Format 500 500 1 Projection \"perspective\" \"fov\" 40 WorldBegin Attribute \"visibility\" "
+               "\"trace\" 1 "
                "Surface \"shiny\" Translate 0 0 5 Sphere 1 -1 1 360 WorldEnd",
                {{"shiny", shader}});
     Rays rays;
@@ -207,7 +215,8 @@ void compare_with_grid() {
       Vec3 to = glm::normalize(Vec3(0, 0, 5) - p);
       rays.add(p + to * 0.1f, to, 1, random);
       for (int c = 0; c < 3; ++c) // towards the ball
-        rays.direction[c].back() = glm::normalize(Vec3(0, 0, 5) - p + Vec3(unit(random) - .5f, unit(random) - .5f, 0.0f))[c];
+        rays.direction[c].back() =
+            glm::normalize(Vec3(0, 0, 5) - p + Vec3(unit(random) - .5f, unit(random) - .5f, 0.0f))[c];
     }
     slvm::ShadingState state = (s.asking_grid(1, 1, 0), s.state());
     std::vector<float> distance(rays.size()), colour(3 * rays.size());
@@ -226,16 +235,17 @@ void compare_with_grid() {
       render::GridTask task;
       task.nu = task.nv = 16;
       for (int k = 0; k < 256; ++k) {
-        task.rect = {static_cast<float>(k % 16) / 16, static_cast<float>(k % 16 + 1) / 16, static_cast<float>(k / 16) / 16,
-                     static_cast<float>(k / 16 + 1) / 16};
+        task.rect = {static_cast<float>(k % 16) / 16, static_cast<float>(k % 16 + 1) / 16,
+                     static_cast<float>(k / 16) / 16, static_cast<float>(k / 16 + 1) / 16};
         render::dice(s.scene().primitives[0], task, static_cast<uint64_t>(k), dice, grid);
         context.shade(set, grid);
       }
     });
     double per = 1e9 / static_cast<double>(rays.size());
-    fmt::print("{} derivatives: rays {:.0f} ns, hits shaded {:.0f} ns, dense grid {:.0f} ns: shading {:.2f}x, whole gather {:.2f}x\n",
-               textured ? "with" : "without", without * per, (with - without) * per, dense * per, (with - without) / dense,
-               with / (without + dense));
+    fmt::print("{} derivatives: rays {:.0f} ns, hits shaded {:.0f} ns, dense grid {:.0f} ns: shading "
+               "{:.2f}x, whole gather {:.2f}x\n",
+               textured ? "with" : "without", without * per, (with - without) * per, dense * per,
+               (with - without) / dense, with / (without + dense));
   }
 }
 

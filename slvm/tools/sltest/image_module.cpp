@@ -15,7 +15,8 @@ void* module_function(const char* name, const char* module) {
   if (error) return nullptr;
   for (const char* place : {"", "../lib/anemone"}) {
     // Never closed: the libraries behind it have threads of their own.
-    if (void* found = dlopen((folder / place / module).c_str(), RTLD_NOW | RTLD_LOCAL)) return dlsym(found, name);
+    if (void* found = dlopen((folder / place / module).c_str(), RTLD_NOW | RTLD_LOCAL))
+      return dlsym(found, name);
   }
   return nullptr;
 }

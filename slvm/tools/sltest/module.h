@@ -1,11 +1,11 @@
-// Modules that take longer to load than most tests to run: sltest_images.so, which holds all that needs OpenImageIO, and
-// sltest_rays.so, which holds the renderer.
+// Modules that take longer to load than most tests to run: sltest_images.so, which holds all that needs
+// OpenImageIO, and sltest_rays.so, which holds the renderer.
 #pragma once
 
 namespace slvm::sltest {
 
-/// A function of a module, or null where there is no module. It is looked for beside this program and where it
-/// is installed.
+/// A function of a module, or null where there is no module. It is looked for beside this program and where
+/// it is installed.
 void* module_function(const char* name, const char* module = "sltest_images.so");
 
 } // namespace slvm::sltest

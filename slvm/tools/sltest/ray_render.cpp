@@ -8,20 +8,26 @@
 namespace slvm::sltest {
 namespace {
 
-/// What stands behind the last object tells the attributes of the grid under test, by a surface that is taken away again.
+/// What stands behind the last object tells the attributes of the grid under test, by a surface that is taken
+/// away again.
 constexpr const char* kLast = "\nSphere 1 -1 1 360\nWorldEnd\n";
 
 class RenderedScene final : public RayScene {
 public:
   explicit RenderedScene(const RaySceneRequest& request)
       : cache_(*request.machine,
-               [shader = request.shader](const std::string& name, const std::vector<std::string>&) { return shader(name); }) {
+               [shader = request.shader](const std::string& name, const std::vector<std::string>&) {
+                 return shader(name);
+               }) {
     SourceManager sources;
     Diagnostics diagnostics;
-    render::Interpreter interpreter(sources, diagnostics, [&](render::Scene& scene) { scene_ = std::move(scene); });
-    interpreter.options().search_paths["texture"] = interpreter.options().search_paths["archive"] = request.path;
+    render::Interpreter interpreter(sources, diagnostics,
+                                    [&](render::Scene& scene) { scene_ = std::move(scene); });
+    interpreter.options().search_paths["texture"] = interpreter.options().search_paths["archive"] =
+        request.path;
     // On the line where the text begins, so that messages count from there.
-    interpreter.read_text(request.name, "Projection \"perspective\" \"fov\" 60 WorldBegin " + request.rib + kLast);
+    interpreter.read_text(request.name,
+                          "Projection \"perspective\" \"fov\" 60 WorldBegin " + request.rib + kLast);
     interpreter.finish();
     render::RayAttributes own;
     if (!scene_.primitives.empty()) {

@@ -1,5 +1,5 @@
-// A small scene around the grid, for shaders that shoot rays: RIB text, whose objects the renderer makes and traces. It
-// is in a module of its own, because the renderer takes longer to load than most tests to run.
+// A small scene around the grid, for shaders that shoot rays: RIB text, whose objects the renderer makes and
+// traces. It is in a module of its own, because the renderer takes longer to load than most tests to run.
 #pragma once
 
 #include "slvm/machine.h"

@@ -122,7 +122,8 @@ std::unique_ptr<Binding> Binding::make(const Setup& setup, const Prepared& prepa
 }
 
 /// What rays see. Its shaders are compiled as those of the test are, without marks.
-bool Binding::set_scene(const Setup& setup, ShaderLibrary& library, const RunConfig& config, RunError& error) {
+bool Binding::set_scene(const Setup& setup, ShaderLibrary& library, const RunConfig& config,
+                        RunError& error) {
   if (setup.scene.empty()) return true;
   RaySceneRequest request;
   request.machine = &machine_;
@@ -136,7 +137,8 @@ bool Binding::set_scene(const Setup& setup, ShaderLibrary& library, const RunCon
     return std::string(reinterpret_cast<const char*>(shader->slo.data()), shader->slo.size());
   };
   ray_scene_ = make_ray_scene(request);
-  std::string problem = ray_scene_ ? ray_scene_->problem() : "without sltest_rays.so (the renderer) there are no scenes";
+  std::string problem =
+      ray_scene_ ? ray_scene_->problem() : "without sltest_rays.so (the renderer) there are no scenes";
   if (problem.empty()) return true;
   error = {Failure::kSetup, fmt::format("{}: scene: {}", to_string(setup.scene_where), problem)};
   return false;
@@ -155,7 +157,7 @@ std::vector<const Instance*> pointers(const std::vector<std::unique_ptr<Instance
 
 Worker::Worker(const Binding& binding)
     : binding_(binding), services_(binding.prepared_->scene, pointers(binding.lights_),
-                binding.ray_scene_ ? &binding.ray_scene_->rays() : nullptr),
+                                   binding.ray_scene_ ? &binding.ray_scene_->rays() : nullptr),
       context_(binding.machine_, services_), grid_(binding.prepared_->grid.nu, binding.prepared_->grid.nv) {}
 
 double Worker::shade() {

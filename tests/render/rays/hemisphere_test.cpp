@@ -22,7 +22,8 @@ std::string world(const std::string& rib) {
 
 /// A hemisphere query of points that are set by `place`.
 struct Ask {
-  explicit Ask(RayScene& s, int nu = 1, int nv = 1, int primitive = -1) : scene(s), grid(s.asking_grid(nu, nv, primitive)) {
+  explicit Ask(RayScene& s, int nu = 1, int nv = 1, int primitive = -1)
+      : scene(s), grid(s.asking_grid(nu, nv, primitive)) {
     size_t n = grid.points();
     for (auto* planes : {position, normal, radiance, colour, direction})
       for (int c = 0; c < 3; ++c)
@@ -178,7 +179,9 @@ TEST(Hemisphere, adaptive_sampling_saves_rays) {
     double sum = 0;
     size_t before = s.tracer().usage().hemisphere_rays;
     for (int i = 0; i < 40; ++i)
-      sum += ask.at({0.5f * std::cos(0.16f * static_cast<float>(i)), 0, 6 + 0.5f * std::sin(0.16f * static_cast<float>(i))}, {0, 1, 0});
+      sum += ask.at({0.5f * std::cos(0.16f * static_cast<float>(i)), 0,
+                     6 + 0.5f * std::sin(0.16f * static_cast<float>(i))},
+                    {0, 1, 0});
     rays = s.tracer().usage().hemisphere_rays - before;
     return sum / 40;
   };
@@ -204,8 +207,9 @@ TEST(Hemisphere, light_in_a_white_furnace) {
 }
 
 TEST(Hemisphere, colour_bleeding_by_form_factors) {
-  // A square of side 2 facing the point at distance 1, above its middle: by the formula of a parallel rectangle seen from
-  // below a corner, four times: F = 4 / (2 PI) (2 a / sqrt(1 + a^2) atan(a / sqrt(1 + a^2))), a = 1.
+  // A square of side 2 facing the point at distance 1, above its middle: by the formula of a parallel
+  // rectangle seen from below a corner, four times: F = 4 / (2 PI) (2 a / sqrt(1 + a^2) atan(a / sqrt(1 +
+  // a^2))), a = 1.
   RayScene s(world("Surface \"red\" Polygon \"P\" [-1 1 -1 1 1 -1 1 1 1 -1 1 1] Surface \"blue\" "
                    "Polygon \"P\" [-9 -1 -9 9 -1 -9 9 -1 9 -9 -1 9]"),
              {{"red", "surface red() { Ci = color(.8, 0, 0); Oi = 1; }"},
@@ -216,8 +220,8 @@ TEST(Hemisphere, colour_bleeding_by_form_factors) {
   Color c = ask.radiance_at({0, 0, 0}, {0, 1, 0});
   EXPECT_NEAR(c.x, 0.8 * factor, 0.006);
   EXPECT_EQ(c.z, 0);
-  // Perpendicular: the square's edge-on half space of a wall's point, x = 1, looking along -x at height 0: only rays up
-  // meet it. The blue floor fills the other half but for what lies behind.
+  // Perpendicular: the square's edge-on half space of a wall's point, x = 1, looking along -x at height 0:
+  // only rays up meet it. The blue floor fills the other half but for what lies behind.
   Color side = ask.radiance_at({1, 0, 0}, {-1, 0, 0});
   EXPECT_GT(side.x, 0.05f);
   EXPECT_NEAR(side.z, 0.5f, 0.08f);
@@ -242,7 +246,8 @@ TEST(Hemisphere, an_environment_map_lights_what_is_open) {
   EXPECT_NEAR(c.x, 0.5f * 0.5f + 0.5f * 0.1f, 0.01f);
   EXPECT_NEAR(c.z, 0.5f * 2.0f + 0.5f * 0.1f, 0.02f);
   EXPECT_NEAR(ask.colour[2][0], 0.5f * 2.0f, 0.02f) << "hits count as black";
-  // The mean open direction: of a quarter space (-4/(3 PI), 2/3, 0) before normalisation... as an angle 45 degrees.
+  // The mean open direction: of a quarter space (-4/(3 PI), 2/3, 0) before normalisation... as an angle 45
+  // degrees.
   EXPECT_LT(ask.direction[0][0], -0.4f);
   EXPECT_NEAR(glm::length(Vec3(ask.direction[0][0], ask.direction[1][0], ask.direction[2][0])), 1, 1e-5f);
   ask.query.environment_map = "missing.exr";
@@ -269,8 +274,8 @@ TEST(Hemisphere, an_environment_map_lights_what_is_open) {
 void floor_lattice(Ask& ask) {
   for (int j = 0; j < 17; ++j)
     for (int i = 0; i < 17; ++i)
-      ask.place(static_cast<size_t>(j * 17 + i), {-1 + 0.125f * static_cast<float>(i), 0, 5 + 0.125f * static_cast<float>(j)},
-                {0, 1, 0});
+      ask.place(static_cast<size_t>(j * 17 + i),
+                {-1 + 0.125f * static_cast<float>(i), 0, 5 + 0.125f * static_cast<float>(j)}, {0, 1, 0});
 }
 
 TEST(Hemisphere, interpolation_keeps_near_the_exact_values) {
@@ -284,7 +289,8 @@ TEST(Hemisphere, interpolation_keeps_near_the_exact_values) {
     ask.query.samples = 1024;
     ask.query.max_error = max_error;
     floor_lattice(ask);
-    ask.query.rays.seed = static_cast<uint32_t>(100 * max_error); // or the second one would find samples of the first
+    ask.query.rays.seed =
+        static_cast<uint32_t>(100 * max_error); // or the second one would find samples of the first
     size_t before = s.tracer().usage().hemispheres;
     ask.run();
     size_t taken = s.tracer().usage().hemispheres - before;
@@ -310,8 +316,8 @@ TEST(Hemisphere, gradients_are_those_of_the_values) {
   ask.query.max_error = 10;
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 3; ++i)
-      ask.place(static_cast<size_t>(3 * j + i), {0.2f + 0.2f * static_cast<float>(i), 0, 6 + 0.05f * static_cast<float>(j)},
-                {0, 1, 0});
+      ask.place(static_cast<size_t>(3 * j + i),
+                {0.2f + 0.2f * static_cast<float>(i), 0, 6 + 0.05f * static_cast<float>(j)}, {0, 1, 0});
   ask.run();
   auto exact = [](double x) { return 0.25 * 1.1 / std::pow(x * x + 1.21, 1.5); };
   EXPECT_NEAR(ask.occlusion[1], exact(0.4), 0.002);
@@ -319,14 +325,18 @@ TEST(Hemisphere, gradients_are_those_of_the_values) {
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 3; ++i) {
       float a = 0.5f * static_cast<float>(i - 1);
-      ask.place(static_cast<size_t>(3 * j + i), {0.4f, 0, 6 + 0.001f * static_cast<float>(j)}, {std::sin(a), std::cos(a), 0});
+      ask.place(static_cast<size_t>(3 * j + i), {0.4f, 0, 6 + 0.001f * static_cast<float>(j)},
+                {std::sin(a), std::cos(a), 0});
     }
   ask.run();
   // Seen whole, a sphere blocks R^2 / d^2 times the cosine to its middle.
-  auto turned = [](double a) { return 0.25 / (0.16 + 1.21) * (-0.4 * std::sin(a) + 1.1 * std::cos(a)) / std::sqrt(0.16 + 1.21); };
+  auto turned = [](double a) {
+    return 0.25 / (0.16 + 1.21) * (-0.4 * std::sin(a) + 1.1 * std::cos(a)) / std::sqrt(0.16 + 1.21);
+  };
   EXPECT_NEAR(ask.occlusion[0], turned(-0.5), 0.003);
   EXPECT_NEAR(ask.occlusion[2], turned(0.5), 0.003);
-  EXPECT_NEAR(ask.occlusion[1], turned(0), 0.01) << "by slopes; the mean of both ends is " << (turned(-.5) + turned(.5)) / 2;
+  EXPECT_NEAR(ask.occlusion[1], turned(0), 0.01)
+      << "by slopes; the mean of both ends is " << (turned(-.5) + turned(.5)) / 2;
 }
 
 TEST(Hemisphere, grids_agree_on_the_edge_they_share_in_any_order) {
@@ -340,7 +350,9 @@ TEST(Hemisphere, grids_agree_on_the_edge_they_share_in_any_order) {
       for (int j = 0; j < 17; ++j)
         for (int i = 0; i < 17; ++i)
           ask.place(static_cast<size_t>(j * 17 + i),
-                    {(is_right ? 0.0f : -1.0f) + 0.0625f * static_cast<float>(i), 0, 5.5f + 0.0625f * static_cast<float>(j)}, {0, 1, 0});
+                    {(is_right ? 0.0f : -1.0f) + 0.0625f * static_cast<float>(i), 0,
+                     5.5f + 0.0625f * static_cast<float>(j)},
+                    {0, 1, 0});
       ask.run();
       (is_right ? right : left) = ask.occlusion;
     }

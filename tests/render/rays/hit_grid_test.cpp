@@ -1,5 +1,5 @@
-// Footprints of rays where they hit, and the neighbours that derivatives at hits are taken from: compared with what
-// neighbouring rays really hit.
+// Footprints of rays where they hit, and the neighbours that derivatives at hits are taken from: compared
+// with what neighbouring rays really hit.
 #include "render/rays/hit_grid.h"
 #include "tests/render/rays/ray_scene.h"
 
@@ -59,7 +59,8 @@ HitRay hit_of(RayScene& s, const RayFan& fan) {
 }
 
 /// A wall behind the eye, z = -2, 40 wide and high; u and v are along x and y.
-const std::string kWall = "WorldBegin " + kSeen + "Patch \"bilinear\" \"P\" [-20 -20 -2 20 -20 -2 -20 20 -2 20 20 -2] WorldEnd";
+const std::string kWall =
+    "WorldBegin " + kSeen + "Patch \"bilinear\" \"P\" [-20 -20 -2 20 -20 -2 -20 20 -2 20 20 -2] WorldEnd";
 
 void expect_footprint(RayScene& s, const RayFan& fan, float tolerance) {
   HitRay hit = hit_of(s, fan);
@@ -163,7 +164,8 @@ TEST(HitGrid, derivatives_at_the_edges_of_a_surface) {
 }
 
 TEST(HitGrid, shaders_at_hits_differentiate) {
-  RayScene s("WorldBegin " + kSeen + "Surface \"slope\" Patch \"bilinear\" \"P\" [0 0 5 2 0 5 0 4 5 2 4 5] WorldEnd",
+  RayScene s("WorldBegin " + kSeen +
+                 "Surface \"slope\" Patch \"bilinear\" \"P\" [0 0 5 2 0 5 0 4 5 2 4 5] WorldEnd",
              {{"slope", "surface slope(output varying float d = 0, a = 0; output varying normal n = 0) {"
                         " d = Du(s * s); a = area(P); n = calculatenormal(P); }"}});
   EXPECT_EQ(s.messages(), "");

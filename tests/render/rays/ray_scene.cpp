@@ -13,7 +13,8 @@ namespace render::testing {
 RayScene::RayScene(const std::string& rib, std::map<std::string, std::string> shaders,
                    std::vector<std::string> texture_folders)
     : shaders_(std::move(shaders)),
-      cache_(machine_, [this](const std::string& name, const std::vector<std::string>&) { return load(name); }) {
+      cache_(machine_,
+             [this](const std::string& name, const std::vector<std::string>&) { return load(name); }) {
   slvm::SourceManager sources;
   slvm::Diagnostics diagnostics;
   Interpreter interpreter(sources, diagnostics, [&](Scene& scene) { scene_ = std::move(scene); });
@@ -66,7 +67,8 @@ slvm::RayOutput RayScene::output(slvm::RayOutput::From from, std::string_view na
   return out;
 }
 
-std::vector<TestHit> RayScene::trace(const std::vector<TestRay>& rays, const std::vector<slvm::RayOutput>& outputs,
+std::vector<TestHit> RayScene::trace(const std::vector<TestRay>& rays,
+                                     const std::vector<slvm::RayOutput>& outputs,
                                      const slvm::RayOptions& options, slvm::RayCursor* cursors) {
   size_t n = rays.size();
   std::vector<float> planes[8];
@@ -125,12 +127,14 @@ std::vector<TestHit> RayScene::trace(const std::vector<TestRay>& rays, const std
 std::vector<float> RayScene::value(const TestRay& ray, const std::string& name, slvm::Type type,
                                    const slvm::RayOptions& options) {
   using From = slvm::RayOutput::From;
-  const std::map<std::string, From> kinds = {{"surface", From::kSurface},     {"displacement", From::kDisplacement},
-                                             {"volume", From::kVolume},       {"atmosphere", From::kAtmosphere},
-                                             {"primitive", From::kPrimitive}, {"attribute", From::kAttribute},
-                                             {"shaded", From::kShaded}};
+  const std::map<std::string, From> kinds = {
+      {"surface", From::kSurface},     {"displacement", From::kDisplacement},
+      {"volume", From::kVolume},       {"atmosphere", From::kAtmosphere},
+      {"primitive", From::kPrimitive}, {"attribute", From::kAttribute},
+      {"shaded", From::kShaded}};
   size_t colon = name.find(':');
-  return trace({ray}, {output(kinds.at(name.substr(0, colon)), std::string_view(name).substr(colon + 1), type)},
+  return trace({ray},
+               {output(kinds.at(name.substr(0, colon)), std::string_view(name).substr(colon + 1), type)},
                options)[0]
       .values[0];
 }

@@ -19,7 +19,8 @@ struct TestRay {
   float max_distance = kInfinity, bias = -1;
 };
 
-/// What came of a ray: its distance, and the values of the outputs asked for, or nothing where there are none.
+/// What came of a ray: its distance, and the values of the outputs asked for, or nothing where there are
+/// none.
 struct TestHit {
   float distance = 0;
   std::vector<std::vector<float>> values;
@@ -36,9 +37,12 @@ public:
   slvm::Grid& asking_grid(int nu = 1, int nv = 1, int primitive = -1);
   slvm::ShadingState state() const;
 
-  std::vector<TestHit> trace(const std::vector<TestRay>& rays, const std::vector<slvm::RayOutput>& outputs = {},
+  std::vector<TestHit> trace(const std::vector<TestRay>& rays,
+                             const std::vector<slvm::RayOutput>& outputs = {},
                              const slvm::RayOptions& options = {}, slvm::RayCursor* cursors = nullptr);
-  float distance(const TestRay& ray, const slvm::RayOptions& options = {}) { return trace({ray}, {}, options)[0].distance; }
+  float distance(const TestRay& ray, const slvm::RayOptions& options = {}) {
+    return trace({ray}, {}, options)[0].distance;
+  }
   /// The values of an output "surface:Ci" at the hit of a ray; empty if it was not found.
   std::vector<float> value(const TestRay& ray, const std::string& output, slvm::Type type,
                            const slvm::RayOptions& options = {});

@@ -9,11 +9,11 @@
 namespace render::testing {
 namespace {
 
+using slvm::RayKind;
+using slvm::Type;
 using ::testing::ElementsAre;
 using ::testing::FloatNear;
 using ::testing::IsEmpty;
-using slvm::RayKind;
-using slvm::Type;
 
 const std::string kSeen = "Attribute \"visibility\" \"trace\" 1 \"transmission\" \"opaque\" ";
 
@@ -22,7 +22,8 @@ std::string world(const std::string& rib) {
 }
 
 TEST(Trace, distances_are_those_of_the_surfaces) {
-  RayScene s(world("Translate 0 0 5 Sphere 1 -1 1 360 Translate 0 0 5 Polygon \"P\" [-9 -9 0 9 -9 0 9 9 0 -9 9 0]"));
+  RayScene s(
+      world("Translate 0 0 5 Sphere 1 -1 1 360 Translate 0 0 5 Polygon \"P\" [-9 -9 0 9 -9 0 9 9 0 -9 9 0]"));
   EXPECT_EQ(s.messages(), "");
   EXPECT_NEAR(s.distance({}), 4, 2e-3f);
   EXPECT_NEAR(s.distance({{0, 0, 5}, {0, 0, 1}}), 1, 2e-3f) << "from inside";
@@ -36,10 +37,11 @@ TEST(Trace, distances_are_those_of_the_surfaces) {
 
 TEST(Trace, hits_are_evaluated_where_the_ray_meets_the_surface) {
   // A trapezoid, a triangle, a sphere, a bicubic patch: their parameters are not those of flat faces.
-  for (const char* shape : {"Polygon \"P\" [-2 -1 0 2 -1 0 .5 1 0 -.5 1 0]", "Polygon \"P\" [-2 -1 0 2 -1 0 0 1.5 0]",
-                            "Sphere 1 -1 1 360", "Rotate 70 1 0 0 Cylinder 1 -1 1 360",
-                            "Patch \"bicubic\" \"P\" [-3 -3 0 -1 -3 2 1 -3 -2 3 -3 0  -3 -1 2 -1 -1 3 1 -1 0 3 -1 2 "
-                            " -3 1 0 -1 1 -3 1 1 3 3 1 0  -3 3 0 -1 3 2 1 3 -2 3 3 0]"}) {
+  for (const char* shape :
+       {"Polygon \"P\" [-2 -1 0 2 -1 0 .5 1 0 -.5 1 0]", "Polygon \"P\" [-2 -1 0 2 -1 0 0 1.5 0]",
+        "Sphere 1 -1 1 360", "Rotate 70 1 0 0 Cylinder 1 -1 1 360",
+        "Patch \"bicubic\" \"P\" [-3 -3 0 -1 -3 2 1 -3 -2 3 -3 0  -3 -1 2 -1 -1 3 1 -1 0 3 -1 2 "
+        " -3 1 0 -1 1 -3 1 1 3 3 1 0  -3 3 0 -1 3 2 1 3 -2 3 3 0]"}) {
     SCOPED_TRACE(shape);
     RayScene s(world(std::string("Translate 0 0 6 ") + shape));
     for (float x : {-0.31f, 0.0f, 0.27f, 0.4f})
@@ -65,7 +67,8 @@ TEST(Trace, variables_of_the_primitive) {
   EXPECT_THAT(s.value(ray, "primitive:s", Type::kFloat), ElementsAre(FloatNear(0.5f, 1e-5f))) << "object x";
   EXPECT_THAT(s.value(ray, "primitive:Cs", Type::kColor), ElementsAre(0.2f, 0.4f, 0.6f));
   EXPECT_THAT(s.value(ray, "primitive:N", Type::kNormal), ElementsAre(0, 0, ::testing::Ne(0)));
-  EXPECT_THAT(s.value(ray, "primitive:N", Type::kVector), ::testing::SizeIs(3)) << "any three numbers will do";
+  EXPECT_THAT(s.value(ray, "primitive:N", Type::kVector), ::testing::SizeIs(3))
+      << "any three numbers will do";
   EXPECT_THAT(s.value(ray, "primitive:heat", Type::kColor), IsEmpty()) << "another type";
   EXPECT_THAT(s.value(ray, "primitive:cold", Type::kFloat), IsEmpty());
   EXPECT_THAT(s.value(ray, "primitive:pair", Type::kFloat), IsEmpty()) << "an array";
@@ -79,11 +82,12 @@ TEST(Trace, variables_of_the_primitive) {
 }
 
 TEST(Trace, hits_run_displacement_surface_and_atmosphere) {
-  RayScene s(world("Surface \"tint\" Displacement \"shift\" Atmosphere \"haze\" Attribute \"user\" \"float tag\" 7 "
-                   "Color .5 .5 .5 Translate 0 0 4 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"),
-             {{"tint", "surface tint(output varying float mine = 0) { mine = s; Ci = Cs * color(1,0,0); Oi = .5; }"},
-              {"shift", "displacement shift(output varying float moved = 0) { moved = 1; N = vector(1, 0, 0); }"},
-              {"haze", "volume haze() { Ci = mix(Ci, color(0,0,1), .5); }"}});
+  RayScene s(
+      world("Surface \"tint\" Displacement \"shift\" Atmosphere \"haze\" Attribute \"user\" \"float tag\" 7 "
+            "Color .5 .5 .5 Translate 0 0 4 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"),
+      {{"tint", "surface tint(output varying float mine = 0) { mine = s; Ci = Cs * color(1,0,0); Oi = .5; }"},
+       {"shift", "displacement shift(output varying float moved = 0) { moved = 1; N = vector(1, 0, 0); }"},
+       {"haze", "volume haze() { Ci = mix(Ci, color(0,0,1), .5); }"}});
   EXPECT_EQ(s.messages(), "");
   TestRay ray{{0.25f, 0.5f, 0}};
   EXPECT_THAT(s.value(ray, "surface:mine", Type::kFloat), ElementsAre(FloatNear(0.25f, 1e-5f)));
@@ -92,7 +96,8 @@ TEST(Trace, hits_run_displacement_surface_and_atmosphere) {
   EXPECT_THAT(s.value(ray, "shaded:Ci", Type::kColor), ElementsAre(0.25f, 0, 0.5f)) << "after it";
   EXPECT_THAT(s.value(ray, "volume:Ci", Type::kColor), ElementsAre(0.25f, 0, 0.5f));
   EXPECT_THAT(s.value(ray, "displacement:moved", Type::kFloat), ElementsAre(1));
-  EXPECT_THAT(s.value(ray, "surface:N", Type::kNormal), ElementsAre(1, 0, 0)) << "as the displacement left it";
+  EXPECT_THAT(s.value(ray, "surface:N", Type::kNormal), ElementsAre(1, 0, 0))
+      << "as the displacement left it";
   EXPECT_THAT(s.value(ray, "primitive:N", Type::kNormal), ElementsAre(0, 0, ::testing::Ne(0)));
   EXPECT_THAT(s.value(ray, "attribute:user:tag", Type::kFloat), ElementsAre(7));
   slvm::RayOptions unshaded;
@@ -118,7 +123,8 @@ TEST(Trace, what_the_shader_of_a_hit_is_told) {
   facts.elements = 3;
   TestRay ray{{0.5f, -0.5f, 1}, {0, 0.1f, 1}};
   EXPECT_THAT(s.trace({ray}, {facts}, o)[0].values[0], ElementsAre(1, 1, 1));
-  EXPECT_THAT(s.value(ray, "surface:where", Type::kColor), ElementsAre(FloatNear(0.5f, 1e-4f), FloatNear(-0.5f, 1e-4f), FloatNear(1, 1e-4f)));
+  EXPECT_THAT(s.value(ray, "surface:where", Type::kColor),
+              ElementsAre(FloatNear(0.5f, 1e-4f), FloatNear(-0.5f, 1e-4f), FloatNear(1, 1e-4f)));
   EXPECT_THAT(s.value(ray, "surface:far", Type::kFloat), ElementsAre(FloatNear(3 * std::sqrt(1.01f), 1e-4f)));
 }
 
@@ -139,14 +145,15 @@ TEST(Trace, visibility_by_kind_of_ray) {
     const char* attribute;
     bool specular, diffuse, transmission;
   };
-  for (Case c : {Case{"", false, false, false}, Case{"Attribute \"visibility\" \"trace\" 1", true, true, false},
-                 Case{"Attribute \"visibility\" \"int specular\" 1", true, false, false},
-                 Case{"Attribute \"visibility\" \"int diffuse\" 1", false, true, false},
-                 Case{"Attribute \"visibility\" \"transmission\" \"opaque\"", false, false, true},
-                 Case{"Attribute \"visibility\" \"transmission\" \"transparent\"", false, false, false},
-                 Case{"Attribute \"visibility\" \"int transmission\" 1", false, false, true},
-                 Case{"Attribute \"visibility\" \"trace\" 1 Attribute \"visibility\" \"int diffuse\" 0", true, false,
-                      false}}) {
+  for (Case c :
+       {Case{"", false, false, false}, Case{"Attribute \"visibility\" \"trace\" 1", true, true, false},
+        Case{"Attribute \"visibility\" \"int specular\" 1", true, false, false},
+        Case{"Attribute \"visibility\" \"int diffuse\" 1", false, true, false},
+        Case{"Attribute \"visibility\" \"transmission\" \"opaque\"", false, false, true},
+        Case{"Attribute \"visibility\" \"transmission\" \"transparent\"", false, false, false},
+        Case{"Attribute \"visibility\" \"int transmission\" 1", false, false, true},
+        Case{"Attribute \"visibility\" \"trace\" 1 Attribute \"visibility\" \"int diffuse\" 0", true, false,
+             false}}) {
     SCOPED_TRACE(c.attribute);
     RayScene s(std::string("WorldBegin ") + c.attribute + " Translate 0 0 4 Disk 0 2 360 WorldEnd");
     EXPECT_EQ(s.messages(), "");
@@ -193,7 +200,8 @@ TEST(Trace, groups_are_joined_and_left) {
 
 TEST(Trace, one_sided_surfaces_and_sides_of_rays) {
   for (bool reversed : {false, true})
-    for (const char* shape : {"Disk 0 2 360", "Scale 1 1 -1 Disk 0 2 360", "ReverseOrientation Disk 0 2 360"}) {
+    for (const char* shape :
+         {"Disk 0 2 360", "Scale 1 1 -1 Disk 0 2 360", "ReverseOrientation Disk 0 2 360"}) {
       SCOPED_TRACE(shape);
       std::string place = std::string("Translate 0 0 4 ") + (reversed ? "Rotate 180 1 0 0 " : "") + shape;
       RayScene two(world(place)), one(world("Sides 1 " + place));
@@ -211,8 +219,9 @@ TEST(Trace, one_sided_surfaces_and_sides_of_rays) {
 }
 
 TEST(Trace, depth_limits_of_the_objects_on_the_way) {
-  RayScene s(world("Attribute \"trace\" \"int maxspeculardepth\" 3 \"int maxdiffusedepth\" 0 "
-                   "Translate 0 0 4 Disk 0 2 360 Attribute \"trace\" \"int maxspeculardepth\" 1 Disk 1 1 360"));
+  RayScene s(
+      world("Attribute \"trace\" \"int maxspeculardepth\" 3 \"int maxdiffusedepth\" 0 "
+            "Translate 0 0 4 Disk 0 2 360 Attribute \"trace\" \"int maxspeculardepth\" 1 Disk 1 1 360"));
   auto shot = [&](int primitive, RayKind kind, const slvm::RayFacts& facts) {
     s.asking_grid(1, 1, primitive).ray = facts;
     slvm::RayOptions o;
@@ -273,18 +282,22 @@ TEST(Trace, cursors_find_one_surface_after_the_other) {
 TEST(Trace, default_surface_and_primitive_mode) {
   RayScene s(world("Color .5 .5 1 Opacity .5 .5 .5 Translate 0 0 4 Disk 0 2 360"));
   slvm::RayOptions o;
-  EXPECT_THAT(s.value({{0.1f, 0.1f, 0}}, "surface:Ci", Type::kColor), ElementsAre(FloatNear(.25f, 1e-3f), FloatNear(.25f, 1e-3f), FloatNear(.5f, 1e-3f)));
+  EXPECT_THAT(s.value({{0.1f, 0.1f, 0}}, "surface:Ci", Type::kColor),
+              ElementsAre(FloatNear(.25f, 1e-3f), FloatNear(.25f, 1e-3f), FloatNear(.5f, 1e-3f)));
   o.mode = slvm::HitMode::kPrimitive;
-  EXPECT_THAT(s.value({{0.1f, 0.1f, 0}, {0.3f, 0, 1}}, "surface:Ci", Type::kColor, o), ElementsAre(.25f, .25f, .5f));
+  EXPECT_THAT(s.value({{0.1f, 0.1f, 0}, {0.3f, 0, 1}}, "surface:Ci", Type::kColor, o),
+              ElementsAre(.25f, .25f, .5f));
 }
 
 TEST(Trace, messages_about_attributes) {
   RayScene s("WorldBegin Attribute \"visibility\" \"string transmission\" [\"glass\"] "
              "Attribute \"shade\" \"string diffusehitmode\" [\"none\"] "
              "Attribute \"trace\" \"float bias\" -1 WorldEnd");
-  EXPECT_THAT(s.messages(), ::testing::HasSubstr("Attribute: \"transmission\" is \"transparent\", \"opaque\", \"Os\", "
-                                                 "\"shader\", 0 or 1"));
-  EXPECT_THAT(s.messages(), ::testing::HasSubstr("Attribute: \"diffusehitmode\" is \"primitive\" or \"shader\""));
+  EXPECT_THAT(s.messages(),
+              ::testing::HasSubstr("Attribute: \"transmission\" is \"transparent\", \"opaque\", \"Os\", "
+                                   "\"shader\", 0 or 1"));
+  EXPECT_THAT(s.messages(),
+              ::testing::HasSubstr("Attribute: \"diffusehitmode\" is \"primitive\" or \"shader\""));
   EXPECT_THAT(s.messages(), ::testing::HasSubstr("Attribute: \"bias\" takes one number, 0 or more"));
 }
 
