@@ -121,6 +121,7 @@ void Renderer::Impl::render(Scene& frame) {
     statistics.samples_per_pixel = o.xsamples * o.ysamples;
     statistics.threads = thread_count(s.threads);
     auto [files, bytes] = textures.usage();
+    statistics.rays = rays.usage();
     statistics.texture_files = files;
     statistics.texture_bytes = bytes;
     statistics.peak_bytes = peak_memory();

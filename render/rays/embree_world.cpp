@@ -322,6 +322,27 @@ RayWorld::~RayWorld() {
   rtcReleaseScene(impl_->top);
 }
 
+namespace {
+
+/// Of several surfaces in the same place the one that comes first in order, or a cursor would pass others by.
+void take_first(RTCScene top, const RayRule& rule, const ItemFaces& faces, RaySegment segment,
+                const slvm::RayCursor* behind, RayHit& hit) {
+  std::vector<RayHit> same;
+  Query q(rule, faces);
+  q.behind = behind;
+  q.list = &same;
+  q.most = 64;
+  segment.nearest = hit.distance * (1 - kSamePlace);
+  segment.farthest = hit.distance * (1 + kSamePlace);
+  RTCRay ray{};
+  set_ray(ray, segment);
+  occluded(top, q.outer, nullptr, ray);
+  for (const RayHit& h : same)
+    if (std::tie(h.distance, h.item, h.face) < std::tie(hit.distance, hit.item, hit.face)) hit = h;
+}
+
+} // namespace
+
 bool RayWorld::nearest(const RayRule& rule, const RaySegment& segment, const slvm::RayCursor* behind,
                        RayHit& hit) const {
   if (!is_usable(segment)) return false;
@@ -333,6 +354,7 @@ bool RayWorld::nearest(const RayRule& rule, const RaySegment& segment, const slv
   intersect(impl_->top, q.outer, nullptr, ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
   hit = {ray.ray.tfar, q.hit_item, ray.hit.primID, ray.hit.u, ray.hit.v};
+  if (behind) take_first(impl_->top, rule, impl_->source, segment, q.behind, hit);
   return true;
 }
 

@@ -58,8 +58,8 @@ void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays
     batch.point = rays.point.data();
     batch.sample = rays.sample.data();
     rays.distance.resize(rays.size());
-    tracer_.trace(state_, query_.rays, batch, {&light, wants_light_ ? size_t{1} : size_t{0}},
-                  rays.distance.data(), nullptr);
+    tracer_.trace_by(shooter_, query_.rays, batch, {&light, wants_light_ ? size_t{1} : size_t{0}},
+                     rays.distance.data(), nullptr);
     tracer_.rays_ -= rays.size();
     for (size_t i = 0; i < rays.size(); ++i) {
       Cell& cell = *rays.cell[i];

@@ -283,8 +283,13 @@ void HemisphereSampler::sample(std::span<const HemispherePoint> points, std::spa
   size_t at_a_time = std::max<size_t>(1, kRaysAtATime / cells);
   tracer_.hemispheres_ += points.size();
   Rays rays;
-  for (size_t first = 0; first < points.size(); first += at_a_time) {
+  for (size_t first = 0; first < points.size();) {
     auto part = points.subspan(first, std::min(at_a_time, points.size() - first));
+    if (interpolated_) { // a sample belongs to its place, whichever grid asks
+      part = points.subspan(first, 1);
+      shooter_.seed = seed_of(part[0]);
+      shooter_.one_point = true;
+    }
     cells_.assign(part.size() * cells, {});
     rays.clear();
     first_rays(part, rays);
@@ -296,6 +301,7 @@ void HemisphereSampler::sample(std::span<const HemispherePoint> points, std::spa
     }
     for (size_t i = 0; i < part.size(); ++i)
       finish(part[i], &cells_[i * cells], out[first + i]);
+    first += part.size();
   }
 }
 

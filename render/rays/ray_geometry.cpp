@@ -144,7 +144,7 @@ void RayGeometry::trim() {
   }
 }
 
-RayGeometry::Usage RayGeometry::usage() const {
+RayGeometryUsage RayGeometry::usage() const {
   return {device_.bytes(), made_, dropped_, faces_};
 }
 

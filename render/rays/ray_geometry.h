@@ -7,6 +7,7 @@
 // depends on when they were made. Objects that are instanced share the faces of their first instance.
 #pragma once
 
+#include "render/rays/ray_usage.h"
 #include "render/rays/tessellate.h"
 #include "render/state/scene.h"
 
@@ -61,10 +62,7 @@ public:
   /// To be called now and then, not while `tracing`: drops faces while there are too many.
   void trim();
 
-  struct Usage {
-    size_t bytes = 0, made = 0, dropped = 0, faces = 0; ///< made, dropped: items; faces: of all made
-  };
-  Usage usage() const;
+  RayGeometryUsage usage() const;
 
 private:
   struct Item {

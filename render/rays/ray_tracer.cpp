@@ -85,6 +85,7 @@ RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state,
   next.label = options.label;
   std::fill_n(next.weight, 3, nullptr);
   out.min_weight = min_weight_;
+  out.seed = state.grid.id;
   return out;
 }
 
@@ -96,10 +97,8 @@ RaySegment RayTracer::segment(const Shooter& shooter, const slvm::RayOptions& op
   out.nearest = batch.bias && batch.bias[ray] >= 0 ? batch.bias[ray] : shooter.attributes.bias;
   if (batch.max_distance) out.farthest = batch.max_distance[ray];
   if (shooter.attributes.sample_motion && scene_.options.shutter_close > scene_.options.shutter_open) {
-    uint64_t place =
-        hash_of(batch.point ? batch.point[ray] : 0, batch.sample ? batch.sample[ray] : 0, kRayTime);
-    out.time = upper_unit(
-        hash_of(static_cast<int64_t>(shooter.state.grid.id), static_cast<int64_t>(place), options.seed));
+    auto number = static_cast<int64_t>(shooter.number(batch, ray));
+    out.time = upper_unit(hash_of(static_cast<int64_t>(shooter.seed), number, options.seed));
   }
   return out;
 }
@@ -108,7 +107,7 @@ HitRay RayTracer::hit_ray(const Shooter& shooter, const slvm::RayBatch& batch, s
                           const RaySegment& segment, const RayHit& hit) {
   HitRay out;
   out.ray = static_cast<uint32_t>(ray);
-  out.point = batch.point ? batch.point[ray] : static_cast<uint32_t>(ray);
+  out.point = shooter.point(batch, ray);
   out.place = geometry_->place(hit);
   out.distance = hit.distance;
   out.time = segment.time;
@@ -127,8 +126,13 @@ HitRay RayTracer::hit_ray(const Shooter& shooter, const slvm::RayBatch& batch, s
 void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& options,
                       const slvm::RayBatch& batch, std::span<const slvm::RayOutput> outputs, float* distance,
                       slvm::RayCursor* cursors) {
-  Shooter by = shooter(state, options);
-  if (!by.may_shoot) {
+  trace_by(shooter(state, options), options, batch, outputs, distance, cursors);
+}
+
+void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, const slvm::RayBatch& batch,
+                         std::span<const slvm::RayOutput> outputs, float* distance,
+                         slvm::RayCursor* cursors) {
+  if (!by.may_shoot || batch.count == 0) {
     std::fill_n(distance, batch.count, slvm::kNotShot);
     return;
   }
@@ -140,7 +144,7 @@ void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& o
   {
     auto tracing = g.tracing();
     for (size_t i = 0; i < batch.count; ++i) {
-      if (light && by.too_light(by.weight(batch.weight, i, batch.point ? batch.point[i] : i))) {
+      if (light && by.too_light(by.weight(batch.weight, i, by.point(batch, i)))) {
         distance[i] = slvm::kNotShot;
         continue;
       }
@@ -155,10 +159,9 @@ void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& o
   }
   rays_ += batch.count;
   g.trim();
-  uint64_t seed = hash_of(static_cast<int64_t>(state.grid.id), options.seed, kHits);
-  if (batch.sample && batch.count)
-    seed = hash_of(static_cast<int64_t>(seed), batch.sample[0], batch.point ? batch.point[0] : 0);
-  hits_.shade(hits, {state, options.kind, options.mode, options.shades, by.next, seed}, outputs);
+  uint64_t seed = hash_of(static_cast<int64_t>(by.seed), options.seed, kHits);
+  seed = hash_of(static_cast<int64_t>(seed), static_cast<int64_t>(by.number(batch, 0)), kHits);
+  hits_.shade(hits, {by.state, options.kind, options.mode, options.shades, by.next, seed}, outputs);
 }
 
 RayUsage RayTracer::usage() const {

@@ -12,13 +12,6 @@ namespace render {
 
 class HemisphereCache;
 
-struct RayUsage {
-  size_t rays = 0, shadow_rays = 0, hemisphere_rays = 0;
-  size_t hemispheres = 0; ///< points that hemisphere rays were shot for
-  size_t hit_grids = 0, hit_points = 0;
-  RayGeometry::Usage geometry;
-};
-
 class RayTracer final : public slvm::RayServices {
 public:
   /// All arguments must outlive this. `services` is what shaders at hits ask; its rays() may be this.
@@ -49,6 +42,8 @@ private:
   /// Made by the first ray.
   RayGeometry& geometry();
   Shooter shooter(const slvm::ShadingState& state, const slvm::RayOptions& options) const;
+  void trace_by(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
+                std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors);
   RaySegment segment(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&, size_t ray) const;
   HitRay hit_ray(const Shooter&, const slvm::RayBatch&, size_t ray, const RaySegment&, const RayHit&);
   void shade_layers(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,

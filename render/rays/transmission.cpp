@@ -118,7 +118,7 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
   out.type = slvm::Type::kColor;
   out.data = values.data();
   out.pitch = path_of.size();
-  uint64_t seed = hash_of(static_cast<int64_t>(by.state.grid.id), options.seed, kHits);
+  uint64_t seed = hash_of(static_cast<int64_t>(by.seed), options.seed, kHits);
   out.from = slvm::RayOutput::From::kPrimitive;
   out.name = "Os";
   hits_.shade(to_evaluate, {by.state, options.kind, options.mode, false, by.next, seed}, {&out, 1});

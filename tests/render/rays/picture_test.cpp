@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 namespace render {
@@ -47,7 +48,8 @@ protected:
 
   std::map<std::string, std::string> shaders_ = {
       {"constant", "surface constant() { Ci = Cs; Oi = Os; }"},
-      {"mirror", "surface mirror() { normal n = normalize(N); Ci = .1 + .8 * trace(P, reflect(normalize(I), "
+      {"mirror", "surface mirror() { normal n = normalize(N); Ci = color(.1) + .8 * color trace(P, "
+                 "reflect(normalize(I), "
                  "n)); Oi = 1; }"},
       {"gathered", "surface gathered(float samples = 8) { color sum = 0, c = 0; gather(\"illuminance\", P, "
                    "faceforward(normalize(N), I),"
@@ -101,9 +103,16 @@ TEST_F(RayPicture, the_same_with_any_number_of_threads) {
                 "Translate 0 .4 -1 Sphere .4 -.4 .4 360 TransformEnd WorldEnd";
   std::vector<float> one = render(rib, 1);
   EXPECT_EQ(messages_, "");
-  EXPECT_EQ(render(rib, 2), one);
-  EXPECT_EQ(render(rib, 4), one);
-  EXPECT_EQ(render(rib, 4), one) << "again";
+  for (int threads : {2, 4, 3, 4}) {
+    std::vector<float> more = render(rib, threads);
+    int different = 0;
+    float most = 0;
+    for (size_t i = 0; i < one.size(); ++i) {
+      different += more[i] != one[i];
+      most = std::max(most, std::abs(more[i] - one[i]));
+    }
+    EXPECT_EQ(different, 0) << threads << " threads, by up to " << most;
+  }
 }
 
 TEST_F(RayPicture, objects_behind_the_camera_and_later_in_the_file_are_seen_in_mirrors) {

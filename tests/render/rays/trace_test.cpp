@@ -275,7 +275,8 @@ TEST(Trace, cursors_find_one_surface_after_the_other) {
       if (d == kInfinity) break;
       met.push_back(d);
     }
-    EXPECT_EQ(met, x > 0 ? (std::vector<float>{2, 4, 4, 7}) : (std::vector<float>{2, 4, 7})) << x;
+    std::vector<float> expected = x > 0 ? std::vector<float>{2, 4, 4, 7} : std::vector<float>{2, 4, 7};
+    EXPECT_THAT(met, ::testing::Pointwise(FloatNear(1e-5f), expected)) << x;
   }
 }
 
