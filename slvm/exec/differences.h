@@ -2,7 +2,8 @@
 //
 // Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes
 // beside others that have none) one-sided; 0 where none does, and for all of a grid without extent in that
-// direction, and for what rays brought that are spread by chance. RISpec 3.2 leaves the scheme open; this is PRMan's default ("derivatives" "centered" 1).
+// direction, and for what rays brought that are spread by chance. RISpec 3.2 leaves the scheme open; this is
+// PRMan's default ("derivatives" "centered" 1).
 #pragma once
 
 #include "slvm/exec/grid_ops.h"

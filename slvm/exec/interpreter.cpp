@@ -363,8 +363,8 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
   }
 }
 
-// Goes to the next ray that a lane still in the loop has, at `body`; after the last one past the endgather at `end`, or
-// to where that says when no lane is left.
+// Goes to the next ray that a lane still in the loop has, at `body`; after the last one past the endgather at
+// `end`, or to where that says when no lane is left.
 uint32_t ShaderRun::next_ray(const Frame& f, MaskStack& m, uint32_t body, uint32_t end) {
   GatherLoop& loop = *gathers.current();
   if (loop.next(*this, m.in_loop()) && take_round(end, mask_count(m.in_loop(), f.active))) {

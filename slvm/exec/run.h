@@ -145,7 +145,8 @@ private:
   /// The lanes still in a loop go on to the next round; false: there are none, or they have gone round for
   /// too long.
   bool next_round(const Frame& frame, MaskStack& mask, uint32_t pc);
-  /// Counts a round of those most_rounds allows. False, with a message: there are no more, and the loop must be left.
+  /// Counts a round of those most_rounds allows. False, with a message: there are no more, and the loop must
+  /// be left.
   bool take_round(uint32_t pc, size_t lanes);
 
   Frame frame_{};

@@ -151,7 +151,8 @@ private:
     if (op == Opcode::k_illuminance && p_.kind == ShaderKind::kLight) fail(at, "a light loop in a light");
     if (is_light_statement(op))
       for (int32_t r : open_)
-        if (is_light_statement(regions_[static_cast<size_t>(r)].open)) fail(at, "light statements do not nest");
+        if (is_light_statement(regions_[static_cast<size_t>(r)].open))
+          fail(at, "light statements do not nest");
     if (op == Opcode::k_gather && !ray_call_before_) fail(at, "a loop over the rays of no call");
     if (emitter)
       for (Global g : {Global::kL, Global::kPs, Global::kNs})

@@ -8,9 +8,9 @@ namespace slvm::ir {
 
 std::string_view op_name(Op op) {
   constexpr std::string_view kNames[kOpCount] = {
-      "constant",    "slot",       "store",      "call",  "retype", "array",
-      "arrayclear",  "arrayload",  "arraystore", "if",    "loop",   "block",
-      "illuminance", "illuminate", "solar",      "yield", "break",  "continue", "gather"};
+      "constant",  "slot",       "store", "call",     "retype", "array",       "arrayclear",
+      "arrayload", "arraystore", "if",    "loop",     "block",  "illuminance", "illuminate",
+      "solar",     "yield",      "break", "continue", "gather"};
   return kNames[static_cast<int>(op)];
 }
 

@@ -19,8 +19,8 @@
 //     body ends in a continue or break, a block's in a break
 //   }
 //
-// break and continue name their loop by how many enclosing loops, blocks, illuminance and gather loops lie between.
-// Variables of the language are gone: arrays alone are memory, loaded and stored element by element.
+// break and continue name their loop by how many enclosing loops, blocks, illuminance and gather loops lie
+// between. Variables of the language are gone: arrays alone are memory, loaded and stored element by element.
 #pragma once
 
 #include "slvm/format/program.h"
@@ -91,8 +91,8 @@ struct Inst {
   std::vector<Region> regions;
 };
 
-/// How many args stand before carried values: 4 for illuminance, 3 illuminate, 2 solar, what its row reads for
-/// gather, else 0.
+/// How many args stand before carried values: 4 for illuminance, 3 illuminate, 2 solar, what its row reads
+/// for gather, else 0.
 inline uint32_t fixed_args(const Inst& inst) {
   switch (inst.op) {
   case Op::kIlluminance: return 4;

@@ -196,7 +196,8 @@ private:
   void imports() {
     if constexpr (!A::kReads)
       for (const Inst& inst : m_.insts)
-        if (names_shadeop(inst.op) && std::find(imports_.begin(), imports_.end(), inst.index) == imports_.end())
+        if (names_shadeop(inst.op) &&
+            std::find(imports_.begin(), imports_.end(), inst.index) == imports_.end())
           imports_.push_back(inst.index);
     a_.list(imports_, [&](uint32_t& id) {
       std::string name, signature;

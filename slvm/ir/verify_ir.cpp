@@ -384,7 +384,8 @@ private:
 
   void check_gather(const Inst& inst) {
     const ShadeopInfo& info = row_of(inst);
-    require(is_body_ && (info.name == "gather" || info.name == "traverse"), "a loop over the rays of no call");
+    require(is_body_ && (info.name == "gather" || info.name == "traverse"),
+            "a loop over the rays of no call");
     require(inst.args.size() >= inst.results.size(), "wrong number of arguments, results or regions");
     check_read(inst, fixed_args(inst));
     carried(inst);

@@ -1,6 +1,7 @@
 // What running shaders costs: each benchmark shader on a grid by the virtual machine and by a hand-written
 // loop (by_hand.cpp), as nanoseconds per point and their ratio, taken in one run; first their results are
-// compared. Shaders that shoot rays stand beside tracing the same rays without the machine (rays.cpp). Also compiling and binding. Usage: anemone_bench [--benchmark_...]
+// compared. Shaders that shoot rays stand beside tracing the same rays without the machine (rays.cpp). Also
+// compiling and binding. Usage: anemone_bench [--benchmark_...]
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
@@ -21,7 +22,7 @@
 
 namespace {
 
-constexpr int kSide = 32;     // points a side: a grid of a typical size
+constexpr int kSide = 32;   // points a side: a grid of a typical size
 constexpr float kRays = 64; // a point, in the benchmarks of rays
 
 /// A scene of lights and of balls that rays hit.
@@ -265,11 +266,13 @@ int main(int argc, char** argv) {
       {"divergent", own + "divergent.sl", false,
        [](Setup&, const bench::Points& p) { bench::divergent_by_hand(p); }, nullptr},
       {"rays: hit?", own + "rays_occlusion.sl", false,
-       [](Setup& s, const bench::Points& p) { bench::occlusion_by_hand(s.scene.balls, kRays, p.count, p.ci); }, nullptr,
-       true},
+       [](Setup& s, const bench::Points& p) {
+         bench::occlusion_by_hand(s.scene.balls, kRays, p.count, p.ci);
+       },
+       nullptr, true},
       {"rays: Ci", own + "rays_bleeding.sl", false,
-       [](Setup& s, const bench::Points& p) { bench::bleeding_by_hand(s.scene.balls, kRays, p.count, p.ci); }, nullptr,
-       true}};
+       [](Setup& s, const bench::Points& p) { bench::bleeding_by_hand(s.scene.balls, kRays, p.count, p.ci); },
+       nullptr, true}};
   for (Case& c : cases) {
     c.surface = setup.instance(c.path);
     setup.scene.list.clear();

@@ -63,7 +63,8 @@ void replay(const BallScene& scene, bool colours, size_t points, float* const (&
   for (const RayCall& call : scene.kept) {
     const size_t count = call.point.size();
     const float* const origin[3] = {call.origin[0].data(), call.origin[1].data(), call.origin[2].data()};
-    const float* const direction[3] = {call.direction[0].data(), call.direction[1].data(), call.direction[2].data()};
+    const float* const direction[3] = {call.direction[0].data(), call.direction[1].data(),
+                                       call.direction[2].data()};
     distance.resize(count);
     colour.resize(colours ? 3 * count : 0);
     found.assign(colours ? count : 0, 0);

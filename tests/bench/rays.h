@@ -1,5 +1,6 @@
-// A scene of balls for the benchmarks of rays: what it takes for a ray is about what a fast ray tracer takes in a scene of
-// some size. It keeps the rays it is asked for, so that the same ones can be traced without the virtual machine.
+// A scene of balls for the benchmarks of rays: what it takes for a ray is about what a fast ray tracer takes
+// in a scene of some size. It keeps the rays it is asked for, so that the same ones can be traced without the
+// virtual machine.
 #pragma once
 
 #include "slvm/rays.h"
@@ -19,16 +20,19 @@ public:
   bool keeps = false;
   std::vector<RayCall> kept;
 
-  void trace(const slvm::ShadingState&, const slvm::RayOptions&, const slvm::RayBatch&, std::span<const slvm::RayOutput>,
-             float* distance, slvm::RayCursor*) override;
+  void trace(const slvm::ShadingState&, const slvm::RayOptions&, const slvm::RayBatch&,
+             std::span<const slvm::RayOutput>, float* distance, slvm::RayCursor*) override;
   void transmission(const slvm::ShadingState&, const slvm::RayOptions&, const slvm::RayBatch&,
                     float* const (&)[3]) override {}
   std::string hemisphere(const slvm::ShadingState&, const slvm::HemisphereQuery&) override { return ""; }
-  std::string sample_environment(const slvm::ShadingState&, const slvm::EnvironmentSamples&) override { return ""; }
+  std::string sample_environment(const slvm::ShadingState&, const slvm::EnvironmentSamples&) override {
+    return "";
+  }
 
-  /// Distances to the balls, and where `colour` is not null the colour of what is hit, `count` floats a component.
-  void nearest(const float* const (&origin)[3], const float* const (&direction)[3], size_t count, float* distance,
-               float* colour, uint8_t* found) const;
+  /// Distances to the balls, and where `colour` is not null the colour of what is hit, `count` floats a
+  /// component.
+  void nearest(const float* const (&origin)[3], const float* const (&direction)[3], size_t count,
+               float* distance, float* colour, uint8_t* found) const;
 
 private:
   struct Ball {

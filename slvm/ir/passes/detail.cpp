@@ -146,7 +146,8 @@ private:
   void visit_region_inst(InstId id) {
     Inst& inst = m_.insts[id];
     bool condition = inst.op == Op::kIf && m_.varying(inst.args[0]);
-    bool by_lane = is_light_statement(inst.op) || inst.op == Op::kGather; // lights and rays choose their lanes
+    bool by_lane =
+        is_light_statement(inst.op) || inst.op == Op::kGather; // lights and rays choose their lanes
     frames_.push_back({id, condition || by_lane});
     for (Region& r : inst.regions)
       visit(r);

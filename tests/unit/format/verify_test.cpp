@@ -107,7 +107,9 @@ const Case kCases[] = {
      },
      "operands do not fit 'traverse'"},
     {"LoopOverNoRays", ir::arithmetic,
-     [](Program& p) { p.code.insert(p.code.begin(), {static_cast<uint32_t>(Opcode::k_gather) | 2u << 16, 0, 0}); },
+     [](Program& p) {
+       p.code.insert(p.code.begin(), {static_cast<uint32_t>(Opcode::k_gather) | 2u << 16, 0, 0});
+     },
      "a loop over the rays of no call"},
     // Operands.
     {"RegisterOutOfBounds", ir::while_loop, [](Program& p) { p.strip_planes = 1; },

@@ -97,7 +97,8 @@ TEST(Emit, QuestionsToTheSceneDoNotCutStripBlocks) {
 
 TEST(Emit, LoopsOverRaysAreACallAndABracket) {
   std::string text = disassemble(compile(gather_loop()));
-  const size_t call = text.find("gather \"\", P, N"), loop = text.find("gather ->"), break_out = text.find("break 1");
+  const size_t call = text.find("gather \"\", P, N"), loop = text.find("gather ->"),
+               break_out = text.find("break 1");
   EXPECT_LT(call, loop) << text;
   EXPECT_LT(loop, break_out);
   EXPECT_NE(text.find("gatherhit"), std::string::npos);

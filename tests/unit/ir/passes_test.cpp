@@ -441,14 +441,19 @@ TEST(InferDetail, DivergenceMakesCarriedValuesVarying) {
 
 TEST(InferDetail, RaysMakeVaryingWhatTheirLoopsCarry) {
   Sketch s;
-  std::vector<ValueId> args{s.b.string(""), s.b.triple(Type::kPoint, 0, 0, 0), s.b.triple(Type::kVector, 0, 0, 1),
-                            s.number(0), s.number(4), s.number(0)};
+  std::vector<ValueId> args{s.b.string(""),
+                            s.b.triple(Type::kPoint, 0, 0, 0),
+                            s.b.triple(Type::kVector, 0, 0, 1),
+                            s.number(0),
+                            s.number(4),
+                            s.number(0)};
   std::vector<Region> body;
   body.push_back(s.region({Type::kFloat}, [&](const std::vector<ValueId>& carried) {
     s.b.next_round(0, {s.add(carried[0], s.number(1))});
   }));
   const Type type = Type::kFloat;
-  InstId id = s.b.region_inst(Op::kGather, shadeop_overloads("gather")[0], args, std::move(body), std::span(&type, 1));
+  InstId id = s.b.region_inst(Op::kGather, shadeop_overloads("gather")[0], args, std::move(body),
+                              std::span(&type, 1));
   const ValueId sum = s.m.insts[id].results[0];
   s.store("Ci", s.b.call("convert", "color(float x)", {sum}));
   Module m = s.finish();

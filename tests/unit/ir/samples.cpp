@@ -164,8 +164,14 @@ Module illuminance_loop() {
 Module gather_loop() {
   Sketch s;
   ValueId n = s.b.retype(Type::kVector, s.read("N"));
-  std::vector<ValueId> args{s.b.string(""),  s.read("P"),          n, s.number(1.5f), s.number(16),
-                            s.b.string("surface:Ci"), s.b.triple(Type::kColor, 0, 0, 0), s.number(0)};
+  std::vector<ValueId> args{s.b.string(""),
+                            s.read("P"),
+                            n,
+                            s.number(1.5f),
+                            s.number(16),
+                            s.b.string("surface:Ci"),
+                            s.b.triple(Type::kColor, 0, 0, 0),
+                            s.number(0)};
   std::vector<Region> body;
   body.push_back(s.region({Type::kFloat}, [&](const std::vector<ValueId>& carried) {
     const Type boolean = Type::kBool, colour = Type::kColor;
