@@ -4,11 +4,13 @@
 //   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are
 //   closed. A grid
 //      is diced and shaded by the first bucket that needs it and freed by the last one in whose list it is,
-//      so the grids in memory are those of about one row of buckets.
+//      so the grids in memory are those of about one row of buckets. Procedurals join in when a bucket comes
+//      to them (task_batch.h).
 #include "render/hider/frame.h"
 
 #include "render/hider/random.h"
 #include "render/hider/sample_buffer.h"
+#include "render/hider/task_batch.h"
 #include "render/prims/dice.h"
 #include "render/prims/motion.h"
 #include "render/prims/split.h"
@@ -29,27 +31,27 @@ namespace render {
 namespace {
 
 struct Bucket {
-  PixelRect rect;
-  std::vector<uint32_t> tasks;
-};
-
-/// The shared, shaded form of one task.
-struct GridSlot {
-  static constexpr uint8_t kNew = 0, kBusy = 1, kDone = 2;
-  std::atomic<uint8_t> state{kNew};
-  std::atomic<uint32_t> users{0}; ///< buckets that may still ask for it
-  std::unique_ptr<const ShadedGrid> grid;
+  std::vector<uint32_t> tasks; ///< of the scene's own primitives, nearest first
+  std::vector<LazyBatch*> procedurals;
 };
 
 class FrameRenderer {
 public:
   FrameRenderer(const Scene& scene, Shading& shading, const FrameSettings& settings)
       : scene_(scene), options_(scene.options), shading_(shading), settings_(settings),
-        camera_(scene.options) {
+        camera_(scene.options), content_(camera_, layout_, split_, settings.make_content) {
     sampling_ = SamplingSettings::from(options_, settings.aovs);
     sampling_.moving = std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) {
       return !p.state->motion.empty() || !p.deformation.empty();
     });
+    sampling_.size.levels = std::any_of(scene.primitives.begin(), scene.primitives.end(),
+                                        [](const Primitive& p) { return !p.state->level.whole(); });
+    // What procedurals make may move, or go over into another level.
+    if (!scene.procedurals.empty()) {
+      if (options_.shutter_close > options_.shutter_open) sampling_.moving = true;
+      sampling_.size.levels = true;
+    }
+    sampling_.moving = sampling_.moving && options_.sample_motion;
     sampling_.camera = &camera_;
     if (camera_.has_lens()) sampling_.lens = &camera_;
     sampling_.mask = settings.mask;
@@ -69,16 +71,22 @@ private:
 
   void split_all();
   void make_buckets();
-  void render_bucket(Bucket& bucket, Worker& worker);
-  const ShadedGrid* shaded(uint32_t task, Worker& worker);
-  std::unique_ptr<const ShadedGrid> shade(uint32_t task, Worker& worker);
+  void render_bucket(int i, int j, Worker& worker);
+  const ShadedGrid* shaded(TaskBatch& batch, uint32_t task, Worker& worker);
+  std::unique_ptr<const ShadedGrid> shade(const TaskBatch& batch, uint32_t task, Worker& worker);
   /// Pixels of the frame to pixels of the image, which are samples when "subpixel" is asked for.
   PixelRect image_rect(const PixelRect& r) const {
     int x = options_.subpixel ? options_.xsamples : 1, y = options_.subpixel ? options_.ysamples : 1;
     return {r.x0 * x, r.y0 * y, r.x1 * x, r.y1 * y};
   }
   void expose(const PixelRect& rect);
-  void run_imager(const PixelRect& rect, Worker& worker);
+  void expose(const PixelRect& rect, int first, int count, const std::array<float, 2>& exposure);
+  /// A picture, by the places of its first colour, opacity and alpha in a pixel.
+  struct Picture {
+    int Ci, Oi, alpha;
+  };
+  std::vector<Picture> pictures() const;
+  void run_imager(const PixelRect& rect, const Picture& picture, Worker& worker);
   static void count(const Primitive& primitive, const slvm::Grid& grid,
                     std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
@@ -91,9 +99,11 @@ private:
   SamplingSettings sampling_;
   int threads_;
   Image image_;
-  std::vector<GridTask> tasks_;
-  std::unique_ptr<GridSlot[]> slots_;
+  SplitSettings split_;
+  TaskBatch batch_; ///< of the scene's own primitives
+  BucketLayout layout_;
   std::vector<Bucket> buckets_;
+  LazyContent content_;
   std::atomic<size_t> next_bucket_{0};
   std::mutex progress_mutex_;
   size_t finished_buckets_ = 0;
@@ -113,12 +123,14 @@ Image FrameRenderer::run(FrameReport& report) {
       Worker& worker = workers[w];
       for (size_t b; (b = next_bucket_.fetch_add(1)) < buckets_.size();) {
         if (!worker.shader) worker.shader = shading_.make_grid_shader();
-        render_bucket(buckets_[b], worker);
+        auto columns = static_cast<size_t>(layout_.columns);
+        render_bucket(static_cast<int>(b % columns), static_cast<int>(b / columns), worker);
         report_progress();
       }
     });
   });
-  report.grids += tasks_.size();
+  report.primitives += content_.primitives();
+  report.grids += batch_.tasks.size() + content_.grids();
   for (const Worker& w : workers) {
     report.shaded_grids += w.report.shaded_grids;
     report.shaded_points += w.report.shaded_points;
@@ -135,7 +147,7 @@ Image FrameRenderer::run(FrameReport& report) {
 }
 
 void FrameRenderer::split_all() {
-  SplitSettings s;
+  SplitSettings& s = split_;
   s.camera = &camera_;
   PixelRect crop = camera_.crop();
   auto mx = static_cast<float>(sampling_.reconstruction.xmargin()),
@@ -144,6 +156,7 @@ void FrameRenderer::split_all() {
   s.raster_max = {static_cast<float>(crop.x1) + mx, static_cast<float>(crop.y1) + my};
   s.grid_size = options_.grid_size;
   s.eye_splits = options_.eye_splits;
+  s.motion = options_.sample_motion;
   // Chunks of primitives in parallel, joined in order: task numbers never depend on the threads.
   constexpr size_t kChunk = 64;
   size_t count = scene_.primitives.size(), chunks = (count + kChunk - 1) / kChunk;
@@ -152,67 +165,87 @@ void FrameRenderer::split_all() {
     for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
       split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
   });
+  size_t tasks = 0;
+  for (const auto& part : parts)
+    tasks += part.size();
+  batch_.tasks.reserve(tasks);
   for (auto& part : parts) {
-    tasks_.insert(tasks_.end(), part.begin(), part.end());
+    batch_.tasks.insert(batch_.tasks.end(), part.begin(), part.end());
     part = {};
   }
-  slots_ = std::make_unique<GridSlot[]>(tasks_.size());
+  batch_.primitives = scene_.primitives;
+  batch_.slots = std::make_unique<GridSlot[]>(batch_.tasks.size());
+  if (scene_.solids > 0) batch_.measure_solids(camera_);
 }
 
 void FrameRenderer::make_buckets() {
-  PixelRect crop = camera_.crop();
-  int bw = options_.bucket_width, bh = options_.bucket_height;
-  int columns = (crop.width() + bw - 1) / bw, rows = (crop.height() + bh - 1) / bh;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i)
-      buckets_.push_back({{crop.x0 + i * bw, crop.y0 + j * bh, std::min(crop.x0 + (i + 1) * bw, crop.x1),
-                           std::min(crop.y0 + (j + 1) * bh, crop.y1)},
-                          {}});
-  auto index = [](float x, int margin, int origin, int size, int count, int side) {
-    float cell = std::floor((x + static_cast<float>(side * margin - origin)) / static_cast<float>(size));
-    return static_cast<int>(std::clamp(cell, 0.0f, static_cast<float>(count - 1)));
+  layout_ = BucketLayout(camera_.crop(), options_.bucket_width, options_.bucket_height,
+                         sampling_.reconstruction.xmargin(), sampling_.reconstruction.ymargin());
+  buckets_.resize(static_cast<size_t>(layout_.columns) * static_cast<size_t>(layout_.rows));
+  auto for_each = [&](const BucketRange& r, auto&& f) {
+    for (int j = r.j0; j <= r.j1; ++j)
+      for (int i = r.i0; i <= r.i1; ++i)
+        f(buckets_[static_cast<size_t>(j * layout_.columns + i)]);
   };
-  int mx = sampling_.reconstruction.xmargin(), my = sampling_.reconstruction.ymargin();
-  for (uint32_t t = 0; t < tasks_.size(); ++t) {
-    const GridTask& task = tasks_[t];
-    int i0 = index(task.raster_min.x, mx, crop.x0, bw, columns, -1);
-    int i1 = index(task.raster_max.x, mx, crop.x0, bw, columns, 1);
-    int j0 = index(task.raster_min.y, my, crop.y0, bh, rows, -1);
-    int j1 = index(task.raster_max.y, my, crop.y0, bh, rows, 1);
-    for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; ++i)
-        buckets_[static_cast<size_t>(j * columns + i)].tasks.push_back(t);
-    slots_[t].users = static_cast<uint32_t>((j1 - j0 + 1) * (i1 - i0 + 1));
+  for (uint32_t t = 0; t < batch_.tasks.size(); ++t) {
+    BucketRange r = layout_.touched(batch_.tasks[t].raster_min, batch_.tasks[t].raster_max);
+    for_each(r, [&](Bucket& b) { b.tasks.push_back(t); });
+    batch_.slots[t].users = static_cast<uint32_t>(r.count());
   }
+  batch_.procedurals =
+      lazy_batches(scene_.procedurals, 0, camera_, layout_, {0, layout_.columns - 1, 0, layout_.rows - 1});
+  for (const auto& lazy : batch_.procedurals)
+    for_each(lazy->buckets, [&](Bucket& b) { b.procedurals.push_back(lazy.get()); });
   tbb::parallel_for(size_t{0}, buckets_.size(), [&](size_t b) {
     std::sort(buckets_[b].tasks.begin(), buckets_[b].tasks.end(), [&](uint32_t x, uint32_t y) {
-      return tasks_[x].zmin != tasks_[y].zmin ? tasks_[x].zmin < tasks_[y].zmin : x < y;
+      const GridTask &s = batch_.tasks[x], &t = batch_.tasks[y];
+      if (s.zmin != t.zmin) return s.zmin < t.zmin;
+      uint32_t a = batch_.solid_number(x), c = batch_.solid_number(y);
+      return a != c ? a < c : x < y;
     });
   });
 }
 
-void FrameRenderer::render_bucket(Bucket& bucket, Worker& worker) {
-  SampleBuffer samples(bucket.rect, sampling_);
-  for (uint32_t t : bucket.tasks) {
-    if (tasks_[t].zmin <= samples.farthest() ||
-        !scene_.primitives[tasks_[t].primitive].attributes().cull_hidden)
-      if (const ShadedGrid* grid = shaded(t, worker)) samples.draw(*grid);
-    if (slots_[t].users.fetch_sub(1) == 1) slots_[t].grid.reset();
+void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
+  Bucket& bucket = buckets_[static_cast<size_t>(j * layout_.columns + i)];
+  PixelRect pixels = layout_.rect(i, j);
+  SampleBuffer samples(pixels, sampling_);
+  BucketQueue queue(batch_, std::exchange(bucket.tasks, {}), bucket.procedurals);
+  std::vector<LazyBatch*> opened;
+  for (BucketQueue::Item item; queue.next(item);) {
+    bool hidden = item.zmin > samples.farthest();
+    if (LazyBatch* lazy = item.lazy) {
+      if (hidden && lazy->procedural.attributes->cull_hidden) {
+        content_.leave(*lazy, i, j, false);
+      } else {
+        content_.open(*lazy, i, j, queue);
+        opened.push_back(lazy);
+      }
+      continue;
+    }
+    if (!hidden || !item.batch->primitive_of(item.task).attributes().cull_hidden)
+      if (const ShadedGrid* grid = shaded(*item.batch, item.task, worker)) samples.draw(*grid);
+    item.batch->slots[item.task].leave();
   }
-  bucket.tasks = {};
+  // From the inside out: what came of a procedural lives in it.
+  for (auto lazy = opened.rbegin(); lazy != opened.rend(); ++lazy)
+    content_.leave(**lazy, i, j, true);
   samples.finish(image_);
-  PixelRect rect = image_rect(bucket.rect);
+  PixelRect rect = image_rect(pixels);
   expose(rect);
-  if (options_.imager) run_imager(rect, worker);
+  if (options_.imager)
+    for (const Picture& p : pictures())
+      run_imager(rect, p, worker);
+  if (settings_.finished) settings_.finished(image_, rect);
 }
 
 /// The task's grid, shaded now if no other bucket has done it. Another thread at it is waited for: it needs
 /// nothing from this one.
-const ShadedGrid* FrameRenderer::shaded(uint32_t task, Worker& worker) {
-  GridSlot& slot = slots_[task];
+const ShadedGrid* FrameRenderer::shaded(TaskBatch& batch, uint32_t task, Worker& worker) {
+  GridSlot& slot = batch.slots[task];
   uint8_t expected = GridSlot::kNew;
   if (slot.state.compare_exchange_strong(expected, GridSlot::kBusy)) {
-    slot.grid = shade(task, worker);
+    slot.grid = shade(batch, task, worker);
     slot.state = GridSlot::kDone;
     slot.state.notify_all();
   } else {
@@ -238,26 +271,31 @@ void FrameRenderer::count(const Primitive& primitive, const slvm::Grid& grid,
 }
 
 /// Null when nothing of the grid can be seen.
-std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& worker) {
-  const GridTask& task = tasks_[index];
-  const Primitive& primitive = scene_.primitives[task.primitive];
+std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, uint32_t index,
+                                                       Worker& worker) {
+  const GridTask& task = batch.tasks[index];
+  const Primitive& primitive = batch.primitives[task.primitive];
+  const uint64_t id = batch.id ^ index;
   DiceContext context{&camera_, &shading_.strings(), options_.shutter_open + options_.shutter_offset,
                       options_.shutter_close - options_.shutter_open};
   slvm::Grid& grid = worker.grid;
-  dice(primitive, task, index, context, grid);
+  dice(primitive, task, id, context, grid);
   auto started = std::chrono::steady_clock::now();
   std::optional<GridOutline> outline;
-  if (!primitive.geometry->ruled())
-    outline = find_outline(grid, task.rect, camera_, std::sqrt(primitive.attributes().shading_rate));
+  if (!primitive.geometry->ruled() && primitive.attributes().stitch)
+    outline = find_outline(grid, task.rect, camera_, task.step);
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
   std::vector<float> times = motion_times(primitive);
   const Attributes& a = primitive.attributes();
-  if (times.empty() && a.sides == 1 && a.cull_backfacing && faces_away(grid, camera_)) return nullptr;
+  const SolidTree* solid = primitive.state->solid.get();
+  if (times.empty() && a.sides == 1 && a.cull_backfacing && a.back_face_tolerance == 0 && !solid &&
+      faces_away(grid, camera_))
+    return nullptr;
   std::vector<slvm::Grid> moved;
   for (size_t i = 1; i < times.size(); ++i) {
     Primitive there = primitive_at(primitive, times[i]);
     slvm::Grid& later = moved.emplace_back(2, 2);
-    dice(there, task, index, context, later);
+    dice(there, task, id, context, later);
     worker.shader->displace(there, later);
   }
   if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);
@@ -265,23 +303,52 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(uint32_t index, Worker& w
   count(primitive, grid, started, worker.report);
   auto out = std::make_unique<ShadedGrid>(make_shaded_grid(
       primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
-  for (size_t i = 0; i < moved.size(); ++i)
+  for (size_t i = 0; i < moved.size() && options_.sample_motion; ++i)
     add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
+  if (solid) out->cut_near = batch.solids.at(solid).cut_near[primitive.state->solid_primitive];
   worker.report.bad_colours += out->bad_colours;
   return out;
 }
 
 void FrameRenderer::expose(const PixelRect& rect) {
-  if (options_.gain == 1 && options_.gamma == 1) return;
+  expose(rect, Image::kCi, 3, {options_.gain, options_.gamma});
+  using Source = AovChannel::Source;
+  for (const AovChannel& a : settings_.aovs)
+    if (a.source == Source::kColor || a.source == Source::kVariable)
+      expose(rect, Image::kAov + a.first, a.components, a.exposure);
+}
+
+void FrameRenderer::expose(const PixelRect& rect, int first, int count,
+                           const std::array<float, 2>& exposure) {
+  auto [gain, gamma] = exposure;
+  if (gain == 1 && gamma == 1) return;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
-      float* p = image_.pixel(x, y);
-      for (int c = 0; c < 3; ++c)
-        p[Image::kCi + c] = exposed(p[Image::kCi + c], options_.gain, options_.gamma);
+      float* p = image_.pixel(x, y) + first;
+      for (int c = 0; c < count; ++c)
+        p[c] = exposed(p[c], gain, gamma);
     }
 }
 
-void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
+/// The standard one, and those with a filter or an exposure of their own (channels.h sees to it that they are
+/// complete).
+std::vector<FrameRenderer::Picture> FrameRenderer::pictures() const {
+  std::vector<Picture> out{{Image::kCi, Image::kOi, Image::kAlpha}};
+  using Source = AovChannel::Source;
+  auto place = [&](const AovChannel& of, Source source) {
+    for (const AovChannel& a : settings_.aovs)
+      if (a.source == source && a.exposure == of.exposure && a.filter == of.filter)
+        return Image::kAov + a.first;
+    return -1;
+  };
+  for (const AovChannel& a : settings_.aovs)
+    if (a.source == Source::kColor)
+      out.push_back({Image::kAov + a.first, place(a, Source::kOpacity), place(a, Source::kAlpha)});
+  std::erase_if(out, [](const Picture& p) { return p.Oi < 0 || p.alpha < 0; });
+  return out;
+}
+
+void FrameRenderer::run_imager(const PixelRect& rect, const Picture& picture, Worker& worker) {
   slvm::Grid& grid = worker.grid;
   grid.reset(rect.width(), rect.height());
   grid.derivatives = true;
@@ -299,11 +366,11 @@ void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
       planes[0][k] = static_cast<float>(x) + 0.5f;
       planes[0][pitch + k] = static_cast<float>(y) + 0.5f;
       planes[0][2 * pitch + k] = 0;
-      for (size_t c = 0; c < 3; ++c) {
-        planes[1][c * pitch + k] = p[Image::kCi + c];
-        planes[2][c * pitch + k] = p[Image::kOi + c];
+      for (int c = 0; c < 3; ++c) {
+        planes[1][static_cast<size_t>(c) * pitch + k] = p[picture.Ci + c];
+        planes[2][static_cast<size_t>(c) * pitch + k] = p[picture.Oi + c];
       }
-      planes[3][k] = p[Image::kAlpha];
+      planes[3][k] = p[picture.alpha];
       planes[4][k] = planes[0][k] / static_cast<float>(options_.xres);
       planes[5][k] = planes[0][pitch + k] / static_cast<float>(options_.yres);
     }
@@ -314,11 +381,11 @@ void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x, ++k) {
       float* p = image_.pixel(x, y);
-      for (size_t c = 0; c < 3; ++c) {
-        p[Image::kCi + c] = Ci.get(c, k);
-        p[Image::kOi + c] = Oi.get(c, k);
+      for (int c = 0; c < 3; ++c) {
+        p[picture.Ci + c] = Ci.get(static_cast<size_t>(c), k);
+        p[picture.Oi + c] = Oi.get(static_cast<size_t>(c), k);
       }
-      p[Image::kAlpha] = alpha.get(0, k);
+      p[picture.alpha] = alpha.get(0, k);
     }
 }
 

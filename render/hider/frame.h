@@ -4,6 +4,7 @@
 
 #include "render/hider/depth_mask.h"
 #include "render/hider/image.h"
+#include "render/hider/task_batch.h"
 #include "render/shading/grid_shader.h"
 #include "render/state/scene.h"
 
@@ -19,8 +20,13 @@ struct FrameSettings {
   int threads = 0; ///< 0: all processors
   std::vector<AovChannel> aovs;
   const DepthMask* mask = nullptr; ///< of Hider "depthmask"
+  /// Who makes what procedurals hold. Null: scenes have none.
+  ContentMaker make_content;
   /// Called with the finished fraction, from any thread but never from two at once.
   std::function<void(double)> progress;
+  /// Called with the pixels of a bucket when they are finished, imager included; from several threads at
+  /// once.
+  std::function<void(const Image&, const PixelRect&)> finished;
 };
 
 /// What the grids of one surface shader cost, displacement and lights included, on all threads together.

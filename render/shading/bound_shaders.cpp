@@ -67,69 +67,99 @@ slvm::Result<std::shared_ptr<const slvm::Shader>> ShaderCache::find(const std::s
 
 class BoundShaders::Binder {
 public:
-  Binder(BoundShaders& out, const Scene& scene, const slvm::Machine& machine, ShaderCache& cache,
-         slvm::Diagnostics& diagnostics)
-      : out_(out), scene_(scene), machine_(machine), cache_(cache), diagnostics_(diagnostics) {}
+  explicit Binder(BoundShaders& out) : out_(out) {}
 
-  void run();
+  void bind_all(std::span<const Primitive> primitives);
+  const slvm::Instance* bind(const std::shared_ptr<const ShaderRequest>& request);
 
 private:
-  const slvm::Instance* bind(const std::shared_ptr<const ShaderRequest>& request);
-  std::unique_ptr<slvm::Instance> make(const ShaderRequest& request);
+  std::unique_ptr<const BoundAttributes> bind(const std::shared_ptr<const Attributes>& a);
+  std::shared_ptr<const slvm::Shader> load(const ShaderRequest& request);
+  std::unique_ptr<slvm::Instance> make(const ShaderRequest& request,
+                                       std::shared_ptr<const slvm::Shader> shader,
+                                       const std::set<std::string>& may_vary);
   bool param_value(const ShaderRequest& request, const slvm::Shader& shader, const ShaderParam& p,
                    slvm::ParamValue& out);
   /// For what old files do and other renderers put up with.
   void warn(slvm::SourceRange where, const ShaderRequest& request, std::string_view text) {
-    diagnostics_.warning(where, "rib-shader", fmt::format("{}: {}", request_info(request.kind).name, text));
+    if (!quiet_)
+      out_.diagnostics_.warning(where, "rib-shader",
+                                fmt::format("{}: {}", request_info(request.kind).name, text));
   }
   void error(slvm::SourceRange where, const ShaderRequest& request, std::string_view text) {
-    diagnostics_.error(where, fmt::format("{}: {}", request_info(request.kind).name, text));
+    if (!quiet_) out_.diagnostics_.error(where, fmt::format("{}: {}", request_info(request.kind).name, text));
   }
 
   BoundShaders& out_;
-  const Scene& scene_;
-  const slvm::Machine& machine_;
-  ShaderCache& cache_;
-  slvm::Diagnostics& diagnostics_;
-  std::vector<std::string> may_vary_;
-  std::set<std::string> missing_;
+  std::set<std::string> variables_; ///< that primitives have
+  bool quiet_ = false;              ///< what is wrong was said before
 };
 
-void BoundShaders::Binder::run() {
-  std::set<std::string> names;
-  for (const Primitive& p : scene_.primitives)
+/// Sets of attributes with an instance that was bound too narrowly are bound again.
+void BoundShaders::Binder::bind_all(std::span<const Primitive> primitives) {
+  const VarSource* last = nullptr; // the faces of a mesh have the same variables
+  for (const Primitive& p : primitives) {
+    if (p.vars.source() == last) continue;
+    last = p.vars.source();
     for (const PatchVar& v : p.vars)
-      names.insert(v.name);
-  may_vary_.assign(names.begin(), names.end());
-  for (const Primitive& p : scene_.primitives) {
-    const Attributes* a = &p.attributes();
-    if (out_.attributes_.contains(a)) continue;
-    BoundAttributes& bound = out_.attributes_[a];
-    bound.shaders.displacement = bind(a->displacement);
-    bound.shaders.surface = bind(a->surface);
-    bound.shaders.atmosphere = bind(a->atmosphere);
-    for (const auto& light : a->lights)
-      if (const slvm::Instance* instance = bind(light)) bound.lights.push_back(instance);
+      variables_.insert(v.name);
   }
-  bind(scene_.options.imager);
+  std::set<const Attributes*> seen;
+  for (const Primitive& p : primitives) {
+    const std::shared_ptr<const Attributes>& a = p.state->attributes;
+    if (!seen.insert(a.get()).second) continue;
+    auto bound = bind(a);
+    auto it = out_.attributes_.find(a.get());
+    if (it != out_.attributes_.end() && it->second.back()->same_as(*bound)) continue;
+    std::lock_guard lock(out_.mutex_);
+    out_.attributes_[a.get()].push_back(std::move(bound));
+  }
+}
+
+std::unique_ptr<const BoundAttributes>
+BoundShaders::Binder::bind(const std::shared_ptr<const Attributes>& a) {
+  auto bound = std::make_unique<BoundAttributes>();
+  bound->attributes = a;
+  bound->shaders.displacement = bind(a->displacement);
+  bound->shaders.surface = bind(a->surface);
+  bound->shaders.atmosphere = bind(a->atmosphere);
+  for (const auto& light : a->lights)
+    if (const slvm::Instance* instance = bind(light)) bound->lights.push_back(instance);
+  return bound;
 }
 
 const slvm::Instance* BoundShaders::Binder::bind(const std::shared_ptr<const ShaderRequest>& request) {
   if (!request) return nullptr;
+  // Only this thread changes the map: it may read it without the lock.
   auto it = out_.instances_.find(request.get());
-  if (it == out_.instances_.end()) it = out_.instances_.emplace(request.get(), make(*request)).first;
-  return it->second.get();
+  const BoundRequest* last = it == out_.instances_.end() ? nullptr : &it->second.back();
+  if (last && !last->instance) return nullptr; // it failed before, and that was said
+  std::shared_ptr<const slvm::Shader> shader = load(*request);
+  BoundRequest bound;
+  if (last) bound.may_vary = last->may_vary;
+  if (shader)
+    for (const slvm::Param& p : shader->program().params)
+      if (variables_.contains(p.name)) bound.may_vary.insert(p.name);
+  if (last && bound.may_vary == last->may_vary) return last->instance.get();
+  quiet_ = last;
+  if (shader) bound.instance = make(*request, shader, bound.may_vary);
+  quiet_ = false;
+  const slvm::Instance* instance = bound.instance.get();
+  std::lock_guard lock(out_.mutex_);
+  out_.instances_[request.get()].push_back(std::move(bound));
+  return instance;
 }
 
-std::unique_ptr<slvm::Instance> BoundShaders::Binder::make(const ShaderRequest& request) {
+/// Null: reported.
+std::shared_ptr<const slvm::Shader> BoundShaders::Binder::load(const ShaderRequest& request) {
   std::vector<std::string> path;
-  if (auto it = scene_.options.search_paths.find("shader"); it != scene_.options.search_paths.end())
-    path = it->second;
+  const auto& paths = out_.options_.search_paths;
+  if (auto it = paths.find("shader"); it != paths.end()) path = it->second;
   if (path.empty()) path = {"."};
-  auto shader = cache_.find(request.name, path);
+  auto shader = out_.cache_.find(request.name, path);
   if (!shader) {
     // A missing shader is often named by every object: once is enough.
-    if (!missing_.insert(request.name).second) return nullptr;
+    if (!out_.missing_.insert(request.name).second) return nullptr;
     std::string text = fmt::format("{}; {}", shader.error(), instead_of(request.kind));
     if (shader.error() == no_such_shader(request.name, path).text)
       warn(request.where, request, text);
@@ -144,10 +174,17 @@ std::unique_ptr<slvm::Instance> BoundShaders::Binder::make(const ShaderRequest& 
                       slvm::shader_kind_name(wanted)));
     return nullptr;
   }
+  return *shader;
+}
+
+std::unique_ptr<slvm::Instance> BoundShaders::Binder::make(const ShaderRequest& request,
+                                                           std::shared_ptr<const slvm::Shader> shader,
+                                                           const std::set<std::string>& may_vary) {
   std::vector<slvm::ParamValue> values;
   for (const ShaderParam& p : request.params)
-    if (slvm::ParamValue value; param_value(request, **shader, p, value)) values.push_back(std::move(value));
-  auto instance = machine_.instantiate(*shader, values, {request.shader_to_camera, may_vary_});
+    if (slvm::ParamValue value; param_value(request, *shader, p, value)) values.push_back(std::move(value));
+  auto instance = out_.machine_.instantiate(shader, values,
+                                            {request.shader_to_camera, {may_vary.begin(), may_vary.end()}});
   if (!instance) {
     error(request.where, request, fmt::format("shader \"{}\": {}", request.name, instance.error()));
     return nullptr;
@@ -196,18 +233,26 @@ bool BoundShaders::Binder::param_value(const ShaderRequest& request, const slvm:
 }
 
 BoundShaders::BoundShaders(const Scene& scene, const slvm::Machine& machine, ShaderCache& cache,
-                           slvm::Diagnostics& diagnostics) {
-  Binder(*this, scene, machine, cache, diagnostics).run();
+                           slvm::Diagnostics& diagnostics)
+    : options_(scene.options), machine_(machine), cache_(cache), diagnostics_(diagnostics) {
+  add(scene.primitives);
+  Binder(*this).bind(scene.options.imager);
+}
+
+void BoundShaders::add(std::span<const Primitive> primitives) {
+  Binder(*this).bind_all(primitives);
 }
 
 const BoundAttributes* BoundShaders::find(const Attributes* attributes) const {
+  std::shared_lock lock(mutex_);
   auto it = attributes_.find(attributes);
-  return it == attributes_.end() ? nullptr : &it->second;
+  return it == attributes_.end() ? nullptr : it->second.back().get();
 }
 
 const slvm::Instance* BoundShaders::find(const ShaderRequest& request) const {
+  std::shared_lock lock(mutex_);
   auto it = instances_.find(&request);
-  return it == instances_.end() ? nullptr : it->second.get();
+  return it == instances_.end() ? nullptr : it->second.back().instance.get();
 }
 
 } // namespace render

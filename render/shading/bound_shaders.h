@@ -8,6 +8,9 @@
 
 #include <map>
 #include <memory>
+#include <set>
+#include <shared_mutex>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -33,8 +36,13 @@ private:
 
 /// What one set of attributes shades with.
 struct BoundAttributes {
+  std::shared_ptr<const Attributes> attributes;
   slvm::ShaderSet shaders;
   std::vector<const slvm::Instance*> lights;
+  bool same_as(const BoundAttributes& b) const {
+    return shaders.displacement == b.shaders.displacement && shaders.surface == b.shaders.surface &&
+           shaders.atmosphere == b.shaders.atmosphere && lights == b.lights;
+  }
 };
 
 class BoundShaders {
@@ -43,15 +51,29 @@ public:
   /// its surface is the default one, its light is dark.
   BoundShaders(const Scene& scene, const slvm::Machine& machine, ShaderCache& cache,
                slvm::Diagnostics& diagnostics);
+  /// Binds what further primitives refer to. One call at a time; other threads may go on asking.
+  void add(std::span<const Primitive> primitives);
 
-  /// Never null for attributes of the scene.
+  /// Never null for attributes of the scene. What it points to stays.
   const BoundAttributes* find(const Attributes* attributes) const;
   const slvm::Instance* find(const ShaderRequest& request) const;
 
 private:
   class Binder;
-  std::unordered_map<const Attributes*, BoundAttributes> attributes_;
-  std::unordered_map<const ShaderRequest*, std::unique_ptr<slvm::Instance>> instances_;
+  /// A request bound for primitives whose variables may replace these parameters. Where later ones have more,
+  /// it is bound again; pictures do not depend on which is used.
+  struct BoundRequest {
+    std::set<std::string> may_vary;
+    std::unique_ptr<slvm::Instance> instance;
+  };
+  const Options& options_;
+  const slvm::Machine& machine_;
+  ShaderCache& cache_;
+  slvm::Diagnostics& diagnostics_;
+  std::set<std::string> missing_;   ///< shaders that were reported
+  mutable std::shared_mutex mutex_; ///< of the maps; nothing is ever taken out of the lists
+  std::unordered_map<const Attributes*, std::vector<std::unique_ptr<const BoundAttributes>>> attributes_;
+  std::unordered_map<const ShaderRequest*, std::vector<BoundRequest>> instances_;
 };
 
 } // namespace render

@@ -15,7 +15,7 @@ namespace render {
 class GridShader {
 public:
   virtual ~GridShader() = default;
-  /// Runs the displacement shader. False: the primitive has none, and the grid is as it was.
+  /// Begins a grid: runs the displacement shader. False: the primitive has none, and the grid is as it was.
   virtual bool displace(const Primitive&, slvm::Grid&) = 0;
   /// Sets Ci and Oi.
   virtual void shade(const Primitive&, slvm::Grid&) = 0;

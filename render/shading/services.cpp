@@ -40,32 +40,35 @@ SceneServices::SceneServices(const Scene& scene, const BoundShaders& shaders, sl
   spaces_["raster"] = {inverse_or_identity(camera.to_raster()), camera.to_raster()};
 }
 
-bool SceneServices::space_to_current(const slvm::ShadingState& state, std::string_view space, Matrix4& m) {
-  if (const Primitive* p = primitive_of(state)) {
-    const auto& scoped = p->attributes().scoped_spaces;
-    if (auto it = scoped.find(std::string(space)); it != scoped.end()) {
-      m = it->second;
-      return true;
-    }
-  }
-  auto it = spaces_.find(space);
-  if (it == spaces_.end()) return false;
-  m = it->second.to_camera;
-  return true;
+void SceneServices::add_spaces(const std::map<std::string, Matrix4>& to_camera) {
+  std::lock_guard lock(spaces_mutex_);
+  for (const auto& [name, m] : to_camera)
+    spaces_[name] = {m, inverse_or_identity(m)};
 }
 
-bool SceneServices::current_to_space(const slvm::ShadingState& state, std::string_view space, Matrix4& m) {
+std::optional<SceneServices::Space> SceneServices::find_space(const slvm::ShadingState& state,
+                                                              std::string_view name) const {
   if (const Primitive* p = primitive_of(state)) {
     const auto& scoped = p->attributes().scoped_spaces;
-    if (auto it = scoped.find(std::string(space)); it != scoped.end()) {
-      m = inverse_or_identity(it->second);
-      return true;
-    }
+    if (auto it = scoped.find(std::string(name)); it != scoped.end())
+      return Space{it->second, inverse_or_identity(it->second)};
   }
-  auto it = spaces_.find(space);
-  if (it == spaces_.end()) return false;
-  m = it->second.from_camera;
-  return true;
+  std::shared_lock lock(spaces_mutex_);
+  auto it = spaces_.find(name);
+  if (it == spaces_.end()) return {};
+  return it->second;
+}
+
+bool SceneServices::space_to_current(const slvm::ShadingState& state, std::string_view name, Matrix4& m) {
+  auto space = find_space(state, name);
+  if (space) m = space->to_camera;
+  return space.has_value();
+}
+
+bool SceneServices::current_to_space(const slvm::ShadingState& state, std::string_view name, Matrix4& m) {
+  auto space = find_space(state, name);
+  if (space) m = space->from_camera;
+  return space.has_value();
 }
 
 std::span<const slvm::Instance* const> SceneServices::lights(const slvm::ShadingState& state) {

@@ -1,5 +1,5 @@
 // What shaders ask of the renderer while they run: spaces, lights, attributes, options. One for each frame,
-// used from all threads; everything it reads is fixed.
+// used from all threads.
 #pragma once
 
 #include "render/shading/bound_shaders.h"
@@ -9,6 +9,8 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <shared_mutex>
 #include <string>
 
 namespace render {
@@ -18,6 +20,9 @@ public:
   /// `print` gets the text of printf, one grid at a time. All arguments must outlive the services.
   SceneServices(const Scene& scene, const BoundShaders& shaders, slvm::TextureServices& textures,
                 std::function<void(std::string_view)> print);
+
+  /// Spaces that procedurals name while the frame is on its way.
+  void add_spaces(const std::map<std::string, Matrix4>& to_camera);
 
   bool space_to_current(const slvm::ShadingState&, std::string_view space, Matrix4& m) override;
   bool current_to_space(const slvm::ShadingState&, std::string_view space, Matrix4& m) override;
@@ -32,11 +37,14 @@ private:
   struct Space {
     Matrix4 to_camera, from_camera;
   };
+  std::optional<Space> find_space(const slvm::ShadingState&, std::string_view name) const;
+
   const Scene& scene_;
   const BoundShaders& shaders_;
   slvm::TextureServices& textures_;
   std::function<void(std::string_view)> print_;
   std::mutex print_mutex_;
+  mutable std::shared_mutex spaces_mutex_;
   std::map<std::string, Space, std::less<>> spaces_;
 };
 

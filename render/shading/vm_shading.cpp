@@ -13,14 +13,15 @@ public:
       : shaders_(shaders), context_(machine, services) {}
 
   bool displace(const Primitive& primitive, slvm::Grid& grid) override {
-    const slvm::ShaderSet& set = shader_set(primitive);
-    if (!set.displacement) return false;
-    context_.displace(set, grid);
+    // Once for each grid: a procedural made meanwhile may have the same shaders bound anew.
+    set_ = shaders_.find(&primitive.attributes())->shaders;
+    if (!set_.displacement) return false;
+    context_.displace(set_, grid);
     return true;
   }
 
-  void shade(const Primitive& primitive, slvm::Grid& grid) override {
-    const slvm::ShaderSet& set = shader_set(primitive);
+  void shade(const Primitive&, slvm::Grid& grid) override {
+    const slvm::ShaderSet& set = set_;
     if (!set.surface) shade_by_default(grid);
     if (!set.surface && set.atmosphere)
       context_.run(*set.atmosphere, grid);
@@ -28,10 +29,8 @@ public:
       context_.shade_displaced(set, grid);
   }
 
-  const slvm::Planes* output(const Primitive& primitive, const slvm::Grid& grid,
-                             std::string_view name) override {
-    const slvm::ShaderSet& set = shader_set(primitive);
-    for (const slvm::Instance* instance : {set.surface, set.displacement, set.atmosphere})
+  const slvm::Planes* output(const Primitive&, const slvm::Grid& grid, std::string_view name) override {
+    for (const slvm::Instance* instance : {set_.surface, set_.displacement, set_.atmosphere})
       if (instance)
         if (const slvm::Planes* planes = context_.output(*instance, name)) return planes;
     slvm::Global g = slvm::find_global(name);
@@ -43,12 +42,9 @@ public:
   }
 
 private:
-  const slvm::ShaderSet& shader_set(const Primitive& primitive) const {
-    return shaders_.find(&primitive.attributes())->shaders;
-  }
-
   const BoundShaders& shaders_;
   slvm::ShadingContext context_;
+  slvm::ShaderSet set_; ///< of the grid being shaded
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "render/prims/primitive.h"
 #include "render/state/options.h"
+#include "render/state/procedural.h"
 
 #include <map>
 #include <string>
@@ -10,12 +11,23 @@
 
 namespace render {
 
+/// What a procedural holds.
+struct SceneContent {
+  std::vector<Primitive> primitives;
+  std::vector<Procedural> procedurals;
+  /// Spaces that CoordinateSystem named in it, to camera.
+  std::map<std::string, Matrix4> spaces;
+};
+
 struct Scene {
   Options options;
   Matrix4 world_to_camera;
   /// Spaces named by CoordinateSystem, to camera.
   std::map<std::string, Matrix4> spaces;
   std::vector<Primitive> primitives;
+  uint32_t solids = 0; ///< so many CSG solids bound some of them
+  /// Geometry that is made when the picture comes to it: Interpreter::make_content.
+  std::vector<Procedural> procedurals;
 };
 
 } // namespace render

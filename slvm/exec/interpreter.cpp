@@ -2,6 +2,7 @@
 // are, how many lanes) and in whose mask stack control flow works on. It is compiled twice: with an observer
 // told of each instruction, and without.
 #include "slvm/exec/observer.h"
+#include "slvm/exec/plugin_call.h"
 #include "slvm/exec/rays/gather.h"
 #include "slvm/exec/run.h"
 
@@ -130,13 +131,17 @@ void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<con
     call_kernel(f, target.kernel, operands_.data(), static_cast<uint32_t>(words.size()));
     return;
   }
-  const ShadeopInfo& info = shadeop(program.imports[import]);
+  const ShadeopInfo& info = program.plugins.info(program.imports[import]);
   uint32_t level = 0;
   decode_call(info, words, decoded_, level);
   grid_operands_.clear();
   for (const CallOperand& o : decoded_)
     grid_operands_.push_back({operand(f, o.word), o.type, operand_space(o.word) == Space::kArray, o.store});
-  target.grid_op({*this, info, grid_operands_, level, pc});
+  const GridCall grid_call{*this, info, grid_operands_, level, pc};
+  if (target.plugin)
+    call_plugin(grid_call, *target.plugin);
+  else
+    target.grid_op(grid_call);
 }
 
 void ShaderRun::run_code(Frame& frame, uint32_t pc) {

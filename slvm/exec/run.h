@@ -13,6 +13,8 @@
 
 namespace slvm {
 
+class PluginThread; // slvm/exec/plugin_host.h
+
 /// What the runs of one context share, and the grid they are on.
 struct GridState {
   const Machine& machine;
@@ -28,6 +30,7 @@ struct GridState {
   const ShaderRun* interior = nullptr; ///< these two never run here: their parameters only
   const ShaderRun* exterior = nullptr;
   ExecutionObserver* observer = nullptr; ///< told of each instruction; null: nobody
+  PluginThread* plugins = nullptr;       ///< what this thread has of plug-ins
 };
 
 /// Where operands are, for the lanes being run: a strip, or the whole grid.

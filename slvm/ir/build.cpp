@@ -52,7 +52,7 @@ Effect effect_of(const Module& m, const Inst& inst) {
   case Op::kArrayLoad: return Effect::kReads;
   case Op::kSlot: return m.slots[inst.index].stored ? Effect::kReads : Effect::kNone;
   case Op::kCall: {
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    const ShadeopInfo& info = m.called(inst);
     bool stores_array = std::any_of(inst.results.begin(), inst.results.end(),
                                     [&](ValueId r) { return m.values[r].array >= 0; });
     if (info.flags & kEffect || info.kind == ShadeopKind::kPending || stores_array) return Effect::kWrites;

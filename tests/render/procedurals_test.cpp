@@ -22,13 +22,27 @@ protected:
   void SetUp() override {
     sources_ = std::make_unique<slvm::SourceManager>();
     diagnostics_ = std::make_unique<slvm::Diagnostics>();
-    interpreter_ =
-        std::make_unique<Interpreter>(*sources_, *diagnostics_, [this](Scene& s) { scene_ = std::move(s); });
+    interpreter_ = std::make_unique<Interpreter>(*sources_, *diagnostics_, [this](Scene& s) {
+      scene_ = std::move(s);
+      make_all();
+    });
     interpreter_->options().search_paths["archive"] = {folder_.string()};
     interpreter_->options().search_paths["procedural"] = {folder_.string()};
     interpreter_->program_limits.seconds = 20;
   }
 
+  /// What a renderer does that comes to all of them.
+  void make_all() {
+    Camera camera(scene_.options);
+    for (size_t i = 0; i < scene_.procedurals.size(); ++i) {
+      auto seen = seen_bound(scene_.procedurals[i], camera, Vec2(1));
+      if (!seen) continue;
+      SceneContent content = interpreter_->make_content(Procedural(scene_.procedurals[i]), seen->area);
+      scene_.primitives.insert(scene_.primitives.end(), content.primitives.begin(), content.primitives.end());
+      scene_.procedurals.insert(scene_.procedurals.end(), content.procedurals.begin(),
+                                content.procedurals.end());
+    }
+  }
   void file(const std::string& name, const std::string& text) { folder_.write(name, text); }
   void program(const std::string& name, const std::string& text) {
     file(name, "#!/bin/sh\n" + text);
@@ -103,13 +117,13 @@ TEST_F(Procedurals, requests_with_mistakes) {
   world("Procedural \"Magic\" [\"x\"] [0 1 0 1 0 1]\nProcedural \"RunProgram\" [\"x\"] [0 1 0 1 0 1]\n"
         "Procedural \"DelayedReadArchive\" [\"x\" \"y\"] [0 1 0 1 0 1]\n"
         "Procedural \"DelayedReadArchive\" [\"x\"] [1 0 0 1 0 1]\n"
-        "Procedural \"DynamicLoad\" [\"x.so\" \"\"] [1 0 0 1 0 1]");
+        "Procedural \"DynamicLoad\" [\"x.so\"] [0 1 0 1 0 1]");
   std::string m = messages();
   EXPECT_THAT(m, HasSubstr("unknown type \"Magic\"; known are DelayedReadArchive, RunProgram, DynamicLoad"));
   EXPECT_THAT(m, HasSubstr("\"RunProgram\" takes a program and the data for it, found 1"));
   EXPECT_THAT(m, HasSubstr("\"DelayedReadArchive\" takes the name of a file, found 2"));
   EXPECT_THAT(m, HasSubstr("the bound is empty; expected xmin xmax ymin ymax zmin zmax"));
-  EXPECT_THAT(m, HasSubstr("warning: Procedural \"DynamicLoad\" is not supported yet"));
+  EXPECT_THAT(m, HasSubstr("\"DynamicLoad\" takes a plug-in and its parameters, found 1"));
 }
 
 const char* kAsk = "Procedural \"RunProgram\" [\"maker\" \"the data\"] [-1 1 -1 1 0 1] ";
@@ -169,6 +183,82 @@ TEST_F(Procedurals, mistakes_in_an_answer_have_a_line) {
   interpreter_->allow_programs = true;
   EXPECT_EQ(world(kAsk), 1u);
   EXPECT_THAT(messages(), HasSubstr("<maker>:2:6: error: Disk: expected a number for 'height', found 'x'"));
+}
+
+// ---- In a picture.
+
+class LazyPictures : public ::testing::Test {
+protected:
+  void SetUp() override {
+    folder_.write("ball.rib", "Color 1 0.5 0 Sphere 0.5 -0.5 0.5 360");
+    folder_.write("row.rib",
+                  fmt::format("{0}Translate 0.6 0 0 {0}", call("ball.rib", "-0.5 0.5 -0.5 0.5 -0.5 0.5")));
+  }
+  static std::string call(const std::string& archive, const std::string& bound) {
+    return fmt::format("Procedural \"DelayedReadArchive\" [\"{}\"] [{}] ", archive, bound);
+  }
+  std::string scene(const std::string& world) const {
+    return fmt::format("Option \"searchpath\" \"archive\" \"{}\" Option \"limits\" \"bucketsize\" [16 16] "
+                       "Format 96 64 1 PixelSamples 3 3 Projection \"perspective\" \"fov\" 40 "
+                       "WorldBegin Translate 0 0 5 {} WorldEnd",
+                       folder_.string(), world);
+  }
+  static void expect_same(const Rendered& a, const Rendered& b) {
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 96; ++x)
+        ASSERT_EQ(a.Ci(x, y), b.Ci(x, y)) << x << ' ' << y;
+  }
+  anemone::test::TempFolder folder_;
+};
+
+const char* kBoundOfRow = "-0.5 1.1 -0.5 0.5 -0.5 0.5";
+
+TEST_F(LazyPictures, look_as_if_all_were_read_at_once) {
+  std::string around =
+      "AttributeBegin Translate -0.3 0 0.3 Rotate 30 1 1 0 Torus 0.8 0.2 0 360 360 AttributeEnd ";
+  Rendered lazy = render_text(scene(around + call("row.rib", kBoundOfRow)), {}, true);
+  EXPECT_EQ(lazy.messages, "");
+  EXPECT_EQ(lazy.report.primitives, 3u);
+  Rendered eager = render_text(scene(around + "Color 1 0.5 0 Sphere 0.5 -0.5 0.5 360 Translate 0.6 0 0 "
+                                              "Sphere 0.5 -0.5 0.5 360"),
+                               {}, true);
+  EXPECT_GT(eager.covered(), 500);
+  expect_same(lazy, eager);
+  for (int threads : {1, 3}) {
+    FrameSettings s;
+    s.threads = threads;
+    expect_same(render_text(scene(around + call("row.rib", kBoundOfRow)), s, true), lazy);
+  }
+}
+
+TEST_F(LazyPictures, what_is_hidden_is_not_opened) {
+  std::string wall = "AttributeBegin Translate 0 0 -1 Disk 0 9 360 AttributeEnd ";
+  std::string missing = call("none.rib", "-0.5 0.5 -0.5 0.5 -0.5 0.5");
+  EXPECT_EQ(render_text(scene(wall + missing)).messages, "");
+  EXPECT_EQ(render_text(scene(missing + wall)).messages, "");
+  // In front of it, or where culling is off, it is.
+  EXPECT_THAT(render_text(scene("Translate 0 0 1 " + wall + "Translate 0 0 -1.4 " + missing)).messages,
+              HasSubstr("no archive \"none.rib\""));
+  EXPECT_THAT(render_text(scene(wall + "Attribute \"cull\" \"hidden\" 0 " + missing)).messages,
+              HasSubstr("no archive \"none.rib\""));
+  // In one bucket hidden, in others not: it is made once, and drawn in all.
+  std::string half =
+      "AttributeBegin Translate 0 0 -1 Polygon \"P\" [-9 -9 0 0 -9 0 0 9 0 -9 9 0] AttributeEnd ";
+  Rendered lazy = render_text(scene(half + call("row.rib", kBoundOfRow)), {}, true);
+  EXPECT_EQ(lazy.report.primitives, 3u);
+  expect_same(lazy, render_text(scene(half + "ReadArchive \"row.rib\""), {}, true));
+}
+
+TEST_F(LazyPictures, content_may_move_where_nothing_else_does) {
+  folder_.write("moving.rib", "MotionBegin [0 1] Translate -0.4 0 0 Translate 0.4 0 0 MotionEnd "
+                              "Sphere 0.3 -0.3 0.3 360");
+  std::string shutter = "Shutter 0 1 ";
+  Rendered lazy = render_text(shutter + scene(call("moving.rib", "-0.7 0.7 -0.3 0.3 -0.3 0.3")), {}, true);
+  Rendered eager = render_text(shutter + scene("ReadArchive \"moving.rib\""), {}, true);
+  EXPECT_EQ(lazy.messages, "");
+  expect_same(lazy, eager);
+  EXPECT_GT(lazy.alpha(38, 32), 0.05f);
+  EXPECT_LT(lazy.alpha(38, 32), 0.95f);
 }
 
 } // namespace

@@ -83,6 +83,9 @@ Rendered render_text(const std::string& rib, const FrameSettings& settings, Plai
   Interpreter interpreter(sources, diagnostics, [&](Scene& scene) {
     out.report = {};
     FrameSettings with_variables = settings;
+    with_variables.make_content = [&](const Procedural& p, float area) {
+      return interpreter.make_content(p, area);
+    };
     if (settings.aovs.empty()) with_variables.aovs = display_aovs(scene.options, diagnostics);
     out.image = render_frame(scene, shading, with_variables, out.report);
     out.scene = std::move(scene);

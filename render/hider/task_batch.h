@@ -1,0 +1,175 @@
+// The work of a frame: primitives cut into tasks, the buckets these fall in, and what procedurals add when a
+// bucket comes to them.
+//
+// A bucket takes its work nearest first. Where it meets a procedural that something nearer does not hide, the
+// content is made, once, and cut; all buckets the bound covers then find the pieces that concern them. So a
+// procedural that is hidden in every bucket is never made, and one that all its buckets have left is freed.
+#pragma once
+
+#include "render/hider/image.h"
+#include "render/hider/shaded_grid.h"
+#include "render/prims/split.h"
+#include "render/state/scene.h"
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <queue>
+#include <span>
+#include <vector>
+
+namespace render {
+
+/// Buckets of a rectangle of the image: columns i0 to i1 and rows j0 to j1, both included.
+struct BucketRange {
+  int i0 = 0, i1 = -1, j0 = 0, j1 = -1;
+  bool empty() const { return i0 > i1 || j0 > j1; }
+  size_t count() const {
+    return empty() ? 0 : static_cast<size_t>(i1 - i0 + 1) * static_cast<size_t>(j1 - j0 + 1);
+  }
+  bool contains(int i, int j) const { return i >= i0 && i <= i1 && j >= j0 && j <= j1; }
+  /// Of a bucket among those of the range, row by row.
+  size_t number(int i, int j) const {
+    return static_cast<size_t>(j - j0) * static_cast<size_t>(i1 - i0 + 1) + static_cast<size_t>(i - i0);
+  }
+  BucketRange within(const BucketRange& r) const {
+    return {std::max(i0, r.i0), std::min(i1, r.i1), std::max(j0, r.j0), std::min(j1, r.j1)};
+  }
+};
+
+/// How an image is cut into buckets.
+struct BucketLayout {
+  PixelRect crop;
+  int width = 32, height = 32;
+  int xmargin = 0, ymargin = 0; ///< pixels around a bucket in which its samples lie
+  int columns = 0, rows = 0;
+
+  BucketLayout() = default;
+  BucketLayout(PixelRect crop, int width, int height, int xmargin, int ymargin);
+  PixelRect rect(int i, int j) const;
+  /// The buckets whose samples a piece of the image may touch.
+  BucketRange touched(Vec2 raster_min, Vec2 raster_max) const;
+};
+
+/// The shared, shaded form of one task.
+struct GridSlot {
+  static constexpr uint8_t kNew = 0, kBusy = 1, kDone = 2;
+  std::atomic<uint8_t> state{kNew};
+  std::atomic<uint32_t> users{0}; ///< buckets that may still ask for it
+  std::unique_ptr<const ShadedGrid> grid;
+  void leave() {
+    if (users.fetch_sub(1) == 1) grid.reset();
+  }
+};
+
+struct LazyBatch;
+
+/// A solid in this frame.
+struct SolidExtent {
+  float zmin = kInfinity;        ///< nearest depth of all its pieces
+  std::vector<uint8_t> cut_near; ///< for each node of its tree: it reaches in front of the near plane
+};
+
+struct TaskBatch {
+  TaskBatch();
+  ~TaskBatch();
+
+  uint64_t id = 0;              ///< 0: the scene's own
+  std::vector<Primitive> owned; ///< of procedurals; the scene keeps its own
+  std::span<const Primitive> primitives;
+  std::vector<GridTask> tasks;
+  std::unique_ptr<GridSlot[]> slots;
+  std::vector<std::unique_ptr<LazyBatch>> procedurals;
+  std::map<const SolidTree*, SolidExtent> solids;
+
+  /// When all tasks are there. What bounds a solid is known when all its surfaces are: its grids come
+  /// together, at the turn of the nearest.
+  void measure_solids(const Camera&);
+  /// 0: the task's surface belongs to none.
+  uint32_t solid_number(uint32_t task) const {
+    const SolidTree* solid = solids.empty() ? nullptr : primitive_of(task).state->solid.get();
+    return solid ? solid->number() : 0;
+  }
+
+  const Primitive& primitive_of(uint32_t task) const { return primitives[tasks[task].primitive]; }
+};
+
+/// A procedural that can be seen.
+struct LazyBatch {
+  Procedural procedural;
+  SeenBound seen;
+  BucketRange buckets;
+  uint64_t id = 0;
+
+  std::mutex mutex; ///< of what follows
+  bool made = false;
+  std::vector<bool> left; ///< by bucket of the range: it will not ask any more
+  size_t still_in = 0;    ///< buckets that have not left
+  TaskBatch batch;
+};
+
+/// Makes what procedurals hold, with shaders bound and all; given the pixels their bound covers. Called by
+/// one thread at a time.
+using ContentMaker = std::function<SceneContent(const Procedural&, float area)>;
+
+/// The procedurals that can be seen, as parts of batch `id`, in those of `within`.
+std::vector<std::unique_ptr<LazyBatch>> lazy_batches(std::vector<Procedural> procedurals, uint64_t id,
+                                                     const Camera& camera, const BucketLayout& layout,
+                                                     const BucketRange& within);
+
+/// What one bucket has to draw, nearest first.
+class BucketQueue {
+public:
+  struct Item {
+    float zmin = 0;
+    TaskBatch* batch = nullptr;
+    uint32_t task = 0;
+    LazyBatch* lazy = nullptr; ///< set: a procedural, not a task
+  };
+
+  /// `tasks`, of `scene`, are sorted.
+  BucketQueue(TaskBatch& scene, std::vector<uint32_t> tasks, std::span<LazyBatch* const> procedurals);
+  void add(const Item& item) { added_.push(item); }
+  /// False: all is done.
+  bool next(Item& item);
+
+private:
+  struct Later {
+    bool operator()(const Item& a, const Item& b) const;
+  };
+  TaskBatch& scene_;
+  std::vector<uint32_t> tasks_;
+  size_t at_ = 0;
+  std::priority_queue<Item, std::vector<Item>, Later> added_;
+};
+
+/// Procedurals on the way from bound to grids.
+class LazyContent {
+public:
+  LazyContent(const Camera& camera, const BucketLayout& layout, const SplitSettings& split,
+              ContentMaker maker)
+      : camera_(camera), layout_(layout), split_(split), make_(std::move(maker)) {}
+
+  /// Bucket (i, j) has met `lazy`: its pieces there join the queue.
+  void open(LazyBatch& lazy, int i, int j, BucketQueue& queue);
+  /// Bucket (i, j) will not ask for anything of `lazy` again. It has drawn what open() gave it, or never
+  /// asked.
+  void leave(LazyBatch& lazy, int i, int j, bool was_open);
+
+  size_t primitives() const { return primitives_; }
+  size_t grids() const { return grids_; }
+
+private:
+  void make(LazyBatch& lazy);
+
+  const Camera& camera_;
+  const BucketLayout& layout_;
+  const SplitSettings& split_;
+  ContentMaker make_;
+  std::mutex maker_mutex_;
+  std::atomic<size_t> primitives_{0}, grids_{0};
+};
+
+} // namespace render
