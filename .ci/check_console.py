@@ -2,7 +2,7 @@
 """The ```console blocks of the documents are true: their commands are run, their output compared. Lines that begin with
 "$ " are commands, the others what they print; "..." stands for any lines. Usage: check_console.py PROGRAMS_FOLDER [slrender]
 
-The blocks of one document run one after the other in a copy of docs/tour. Without slrender, blocks that call it are
+ANEMONE_DSO_PATH names the folder of the documents' plug-ins. The blocks of one document run one after the other in a copy of docs/tour. Without slrender, blocks that call it are
 left out.
 """
 import os
@@ -46,7 +46,8 @@ def check(path, environment, renders):
 
 
 def main():
-    environment = dict(os.environ, PATH=sys.argv[1] + os.pathsep + os.environ["PATH"])
+    environment = dict(os.environ, PATH=sys.argv[1] + os.pathsep + os.environ["PATH"],
+                       ANEMONE_DSO_PATH=sys.argv[1] + "/plugins")
     problems = []
     for path in tree.files(".md"):
         problems += check(path, environment, len(sys.argv) > 2)

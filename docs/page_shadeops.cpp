@@ -189,7 +189,8 @@ std::string function_entry(std::string_view name) {
   if (flags & kSurfaceOnly) out += "Not in light shaders.\n\n";
   if (flags & kDerivative) out += "Looks at neighbouring points of the grid.\n\n";
   if (!pending.empty() && pending.size() < rows)
-    out += fmt::format("This form compiles; binding a shader that calls it is an error, because this version cannot carry it "
+    out += fmt::format("This form compiles; binding a shader that calls it is an error, because this version "
+                       "cannot carry it "
                        "out:\n\n{}\n",
                        declarations(pending));
   else if (!pending.empty())

@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include "render/display/output.h"
+#include "render/display/preview.h"
 #include "render/hider/frame.h"
 #include "render/map_requests.h"
 #include "render/rays/ray_tracer.h"
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -22,16 +24,22 @@ namespace render {
 
 struct Renderer::Impl {
   Impl(slvm::SourceManager& sources, slvm::Diagnostics& d, RendererSettings s)
-      : diagnostics(d), settings(std::move(s)), cache(machine, settings.shader_loader),
-        interpreter(sources, d, [this](Scene& scene) { render(scene); }) {
+      : diagnostics(d), settings(std::move(s)), machine({.plugin_folders = settings.plugin_folders}),
+        cache(machine, settings.shader_loader), interpreter(sources, d, [this](Scene& scene) {
+          render(scene);
+          end_plugins();
+        }) {
     interpreter.override_options = settings.override_options;
     interpreter.allow_programs = settings.allow_programs;
     interpreter.program_limits.seconds = settings.program_seconds;
+    interpreter.plug_in_folders = settings.plug_in_folders;
+    interpreter.around_plug_in = settings.around_plug_in;
     interpreter.make_map = make_map;
   }
 
   void render(Scene& scene);
   void report_runtime_messages();
+  void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
   void make_what_rays_see(Scene& scene);
   void flush() {
@@ -55,18 +63,27 @@ TextureMaps::Settings texture_settings(const Options& options) {
   TextureMaps::Settings s;
   if (auto it = options.search_paths.find("texture"); it != options.search_paths.end())
     s.folders = it->second;
-  if (auto it = options.named.find("shadow:bias");
-      it != options.named.end() && it->second.numbers.size() == 1)
-    s.shadow_bias = it->second.numbers[0];
+  auto named = [&](const char* name, float otherwise) {
+    auto it = options.named.find(name);
+    return it == options.named.end() ? otherwise : it->second.numbers[0];
+  };
+  s.shadow_bias = named("shadow:bias", s.shadow_bias);
+  // bias0 and bias1 are the ends of a range.
+  if (options.named.contains("shadow:bias0") && options.named.contains("shadow:bias1")) {
+    s.shadow_bias = named("shadow:bias0", 0);
+    s.shadow_bias_spread = named("shadow:bias1", 0) - s.shadow_bias;
+  }
+  s.memory_megabytes = options.texture_megabytes;
   return s;
 }
 
 } // namespace
 
 void Renderer::Impl::render(Scene& frame) {
+  if (frame.options.no_image) return;
   if (frame.options.displays.empty()) frame.options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
   FrameSettings s;
-  s.threads = settings.threads;
+  s.threads = settings.threads > 0 ? settings.threads : frame.options.threads;
   s.aovs = display_aovs(frame.options, diagnostics);
   s.progress = settings.progress;
   using Clock = std::chrono::steady_clock;
@@ -95,8 +112,16 @@ void Renderer::Impl::render(Scene& frame) {
   FrameReport& report = statistics.report;
   statistics.bind_seconds = seconds_since(started);
   started = Clock::now();
+  std::optional<Preview> preview;
+  if (!settings.preview.empty()) {
+    preview.emplace(frame.options, s.aovs, settings.preview);
+    s.finished = [&](const Image& pixels, const PixelRect& rect) { preview->add(pixels, rect); };
+  }
   Image image = render_frame(frame, shading, s, report);
   statistics.render_seconds = seconds_since(started);
+  if (preview)
+    if (std::string why = preview->finish(); !why.empty())
+      diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
   for (const auto& [wanted, used] : textures.replaced())
     if (replaced.insert(wanted).second)
@@ -182,6 +207,14 @@ void Renderer::Impl::report_runtime_messages() {
   }
 }
 
+/// When nothing of the frame is left: plug-ins may have something to say then, too.
+void Renderer::Impl::end_plugins() {
+  const std::string told = machine.end_plugins();
+  if (!told.empty() && settings.plugin_statistics) settings.plugin_statistics(told);
+  report_runtime_messages();
+  flush();
+}
+
 Renderer::Renderer(slvm::SourceManager& sources, slvm::Diagnostics& diagnostics, RendererSettings settings)
     : impl_(std::make_unique<Impl>(sources, diagnostics, std::move(settings))) {}
 
@@ -195,6 +228,9 @@ void Renderer::read_text(std::string name, std::string text) {
 }
 void Renderer::finish() {
   impl_->interpreter.finish();
+}
+Interpreter& Renderer::interpreter() {
+  return impl_->interpreter;
 }
 Options& Renderer::options() {
   return impl_->interpreter.options();

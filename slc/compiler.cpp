@@ -49,7 +49,7 @@ CheckedSource Compiler::check(slvm::FileId main, const CompileOptions& options, 
   checked.text = preprocess(main, options, sources, diags);
   if (diags.has_true_errors()) return checked; // text is missing: what would follow from that is no news
   checked.unit = parse(lex(checked.text, diags), diags);
-  analyse(checked.unit, builtins_, diags);
+  analyse(checked.unit, builtins_, diags, options.plugins);
   explain_expansions(checked.text, diags);
   if (checked.unit.shaders.empty() && !diags.has_true_errors())
     report(diags, Msg::kNoShader, slvm::SourceRange{main, 0, 0, 0});

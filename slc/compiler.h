@@ -27,6 +27,8 @@ struct CompileOptions {
   /// Computes calls of constants (slvm/evaluator.h has one that runs the machine's kernels). Null: they stay
   /// calls, and defaults of parameters that are computed stay unknown to introspection.
   const slvm::ir::ConstantEvaluator* evaluator = nullptr;
+  /// Where functions of plug-ins are found (slvm/plugin/finder.h). Null: nowhere.
+  const slvm::PluginSource* plugins = nullptr;
 };
 
 /// A shader, compiled. A source file may define several.

@@ -4,6 +4,7 @@
 #include "slvm/evaluator.h"
 #include "slvm/exec/bind.h"
 #include "slvm/exec/bound.h"
+#include "slvm/exec/plugin_host.h"
 #include "slvm/format/decode.h"
 #include "slvm/format/slo.h"
 #include "slvm/kernels/table.h"
@@ -25,9 +26,14 @@ Machine::Machine(MachineOptions options) : options_(std::move(options)) {
   if (!kernels_) kernels_ = &kernel_table();
   evaluator_ = make_kernel_evaluator(options_.target);
   if (!evaluator_) evaluator_ = make_kernel_evaluator();
+  plugins_ = std::make_unique<PluginHost>(*this, options_.plugin_folders);
 }
 
 Machine::~Machine() = default;
+
+std::string Machine::end_plugins() const {
+  return plugins_->end_frame();
+}
 
 Result<std::shared_ptr<const Shader>> Machine::load(std::span<const std::byte> slo) const {
   Result<Program> program = read_slo(slo);
@@ -118,7 +124,8 @@ void find_strip_operands(Instance::Bound& bound, const Program& program) {
 
 // Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot
 // serve.
-std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels) {
+std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels,
+                      PluginHost& plugins) {
   std::vector<bool> called(program.imports.size());
   size_t emitters = 0;
   bool loops = false;
@@ -136,8 +143,17 @@ std::string bind_code(Instance::Bound& bound, const Program& program, const Kern
   bound.emits_once = emitters == 1 && !loops;
   for (size_t i = 0; i < program.imports.size(); ++i) {
     ShadeopId id = program.imports[i];
-    const ShadeopInfo& info = shadeop(id);
-    bound.imports.push_back({kernels[id], grid_op(id)});
+    const ShadeopInfo& info = program.plugins.info(id);
+    if (const PluginShadeop* function = program.plugins.find(id)) {
+      bound.imports.emplace_back();
+      if (!called[i]) continue;
+      auto hosted = plugins.bind(*function);
+      if (!hosted)
+        return fmt::format("{} \"{}\": {}", shader_kind_name(program.kind), program.name, hosted.error());
+      bound.imports.back().plugin = *hosted;
+      continue;
+    }
+    bound.imports.push_back({kernels[id], grid_op(id), nullptr});
     bound.reads_messages |= info.name == "surface" || info.name == "displacement" ||
                             info.name == "atmosphere" || info.name == "incident" || info.name == "opposite";
     if (called[i] && info.kind == ShadeopKind::kPending)
@@ -189,7 +205,8 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
   instance->bound_ = std::make_unique<Instance::Bound>();
   Instance::Bound& bound = *instance->bound_;
   if (instance->shader().kind() == ShaderKind::kLight) bound.given.assign(given.begin(), given.end());
-  if (std::string error = bind_code(bound, program, *kernels_); !error.empty()) return Error{error};
+  if (std::string error = bind_code(bound, program, *kernels_, *plugins_); !error.empty())
+    return Error{error};
   bind_constants(bound, program, strings_);
   bind_params(bound, program, *values, strings_);
   bind_variables(bound, program);

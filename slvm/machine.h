@@ -25,6 +25,7 @@
 namespace slvm {
 
 class ExecutionObserver; // slvm/exec/observer.h
+class PluginHost;        // slvm/exec/plugin_host.h
 struct KernelTable;
 namespace ir {
 class ConstantEvaluator;
@@ -47,6 +48,9 @@ struct MachineOptions {
   /// shader it is of, one call at a time. Repetitions, the same text from the same line of the same shader,
   /// are folded: Machine::messages() has their counts. It must not call the machine.
   std::function<void(const RuntimeMessage&)> on_message = {};
+  /// Folders of plug-ins that shaders may call. They are native code: only what the user of the program named
+  /// himself belongs here (slvm::plugin_folders in slvm/support/shared_library.h). Empty: none is loaded.
+  std::vector<std::string> plugin_folders = {};
 };
 
 /// A compiled shader, loaded and verified. Immutable, shared between threads.
@@ -113,7 +117,7 @@ public:
   Result<std::shared_ptr<const Shader>> load_file(const std::string& path) const;
 
   /// Binds parameter values. Errors: an unknown parameter (with the nearest name), a wrong type or array
-  /// length, a built-in function this build cannot serve.
+  /// length, a built-in function this build cannot serve, a plug-in that is missing or does not work.
   Result<std::unique_ptr<Instance>> instantiate(std::shared_ptr<const Shader>, std::span<const ParamValue>,
                                                 const InstanceOptions& = {}) const;
 
@@ -121,9 +125,15 @@ public:
   /// Fails where only the values kept it from a function this build cannot serve.
   Result<std::unique_ptr<Instance>> unspecialised(const Instance& light) const;
 
+  /// At the end of a frame, when no ShadingContext is left: plug-ins clean up, and begin anew when they are
+  /// called again. Returns what they have to say of themselves (RixStats), lines of text. The destructor does
+  /// the same.
+  std::string end_plugins() const;
+
   const MachineOptions& options() const { return options_; }
   StringPool& strings() const { return strings_; }
   const KernelTable& kernels() const { return *kernels_; }
+  PluginHost& plugins() const { return *plugins_; }
 
   /// Run-time messages so far, each once with its counts, in order of file and line.
   std::vector<RuntimeMessage> messages() const;
@@ -142,6 +152,7 @@ private:
   mutable StringPool strings_;
   mutable std::mutex messages_mutex_;
   mutable std::vector<RuntimeMessage> messages_;
+  std::unique_ptr<PluginHost> plugins_; // last: it reports when it goes
 };
 
 /// Runs instances on grids: registers, masks, light results. One for each thread; not thread-safe.

@@ -31,10 +31,12 @@ enum RandomPurpose : uint64_t {
   kTime = 5,
   kLens = 6,
   kLensCells = 7,
-  kHits = 8,
-  kDisplacedFaces = 9,
-  kRayTime = 10,
-  kHemisphere = 11
+  kLevelStrata = 8,
+  kLevel = 9,
+  kHits = 10,
+  kDisplacedFaces = 11,
+  kRayTime = 12,
+  kHemisphere = 13
 };
 
 } // namespace render

@@ -378,11 +378,9 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
     shade_by_default(grid);
   if (set.surface) context.shade_surface(set, grid);
   take(context, grid, set.surface, From::kSurface, hits, outputs);
+  if (set.surface) context.shade_atmosphere(); // or what ends the grid
   if (set.atmosphere) {
-    if (set.surface)
-      context.shade_atmosphere();
-    else
-      context.run(*set.atmosphere, grid);
+    if (!set.surface) context.run(*set.atmosphere, grid);
     take(context, grid, set.atmosphere, From::kVolume, hits, outputs);
     take(context, grid, set.atmosphere, From::kAtmosphere, hits, outputs);
   }

@@ -236,10 +236,12 @@ std::string TextureMaps::shadow(const TextureLookup& l) {
     std::copy(v.begin(), v.end(), r.along_v);
     r.sblur = TextureLookup::at(l.sblur, i);
     r.tblur = TextureLookup::at(l.tblur, i);
-    r.bias = l.bias.empty() ? settings_.shadow_bias : TextureLookup::at(l.bias, i);
     r.samples = static_cast<int>(
         std::clamp(l.options.samples > 0 ? l.options.samples : kDefaultSamples, 1.0f, 4096.0f));
     r.seed = static_cast<uint32_t>(i) * 0x9e3779b9u >> 8;
+    float chance = static_cast<float>(r.seed * 0x85ebca6bu >> 8) * 0x1p-24f;
+    r.bias = l.bias.empty() ? settings_.shadow_bias + settings_.shadow_bias_spread * chance
+                            : TextureLookup::at(l.bias, i);
     float shadowed = map->shadowed(r);
     for (size_t c = 0; c < l.channels; ++c)
       l.result[c][i] = shadowed;

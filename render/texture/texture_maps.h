@@ -19,6 +19,7 @@ public:
   struct Settings {
     std::vector<std::string> folders; ///< where maps are looked for
     float shadow_bias = 0.01f;        ///< where the shader says none
+    float shadow_bias_spread = 0;     ///< by chance, up to so much is added to it at each lookup
     float memory_megabytes = 1024;
   };
   explicit TextureMaps(const Settings&);

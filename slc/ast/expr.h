@@ -13,7 +13,7 @@
 //   - Ranges inside RSL bodies of built-ins are not valid(): positions there are those of the outermost call.
 #pragma once
 
-#include "slvm/format/shadeop_info.h"
+#include "slvm/format/plugin_shadeop.h"
 #include "slvm/support/source.h"
 
 #include <memory>
@@ -197,7 +197,7 @@ struct TokenArg {
   const slvm::TokenInfo* info = nullptr;
 };
 
-/// A call. Exactly one of these holds:
+/// A call. One of these holds; a function of a plug-in, `plugin`, is called as a row is:
 ///   - `function` set: a function of the source or the RSL body of a built-in, to be inlined. `args` are
 ///   parallel
 ///     to function->formals: output formals get a place (VariableExpr or IndexExpr), array formals a whole
@@ -217,8 +217,12 @@ struct CallExpr : ExprOf<ExprKind::kCall> {
   ExprPtr channel; ///< of texture("name"[c]), as parsed; null after semantic analysis
   std::vector<TokenArg> tokens;
   ShadeopId shadeop = kNoShadeop;
+  std::shared_ptr<const slvm::PluginShadeop> plugin;
   const FunctionDef* function = nullptr;
   using ExprOf::ExprOf;
+
+  /// Of a call of a row or of a plug-in's function.
+  const slvm::ShadeopInfo& info() const { return plugin ? plugin->info() : slvm::shadeop(shadeop); }
 };
 
 /// `target = value`, `target op= value`. `target` is a VariableExpr or IndexExpr; `value` has its type. The

@@ -87,6 +87,11 @@ private:
                           type_text(e.type, e.array_length));
     line(head);
   }
+  static std::string row(const CallExpr& call) {
+    return call.plugin ? fmt::format(" [{} {} of {}]", call.plugin->info().name,
+                                     call.plugin->info().signature_text, call.plugin->name().library)
+                       : row(call.shadeop);
+  }
   static std::string row(ShadeopId id) {
     if (id == kNoShadeop) return "";
     const slvm::ShadeopInfo& info = slvm::shadeop(id);
@@ -138,7 +143,7 @@ void Printer::expression(const Expr& e) {
   }
   case ExprKind::kCall: {
     const auto& call = *as<CallExpr>(&e);
-    typed(e, fmt::format("call {}{}{}", call.name, call.function ? " inlined" : "", row(call.shadeop)));
+    typed(e, fmt::format("call {}{}{}", call.name, call.function ? " inlined" : "", row(call)));
     labelled("channel", call.channel);
     children(call.args);
     return token_args(call.tokens);

@@ -60,6 +60,12 @@ struct Annotation {
   SourceRange where;
 };
 
+/// `plugin "name";`
+struct PluginStatement {
+  std::string name;
+  SourceRange where; ///< of the name
+};
+
 struct Shader {
   ShaderKind kind = ShaderKind::kSurface;
   std::string name;
@@ -84,6 +90,7 @@ struct TranslationUnit {
   std::deque<FunctionDef> functions; ///< in source order, nested ones included
   std::deque<Shader> shaders;        ///< in source order
   std::vector<Annotation> annotations;
+  std::vector<PluginStatement> plugins;
   /// Names whose declarations had errors: nothing more is said about them.
   std::set<std::string, std::less<>> misdeclared;
   /// Keeps the functions of the built-ins alive, to which calls of this unit refer.

@@ -7,14 +7,19 @@
 namespace slc {
 
 slvm::ir::ValueId Lowering::call(const CallExpr& e) {
-  if (e.shadeop != kNoShadeop) note_call(e.shadeop);
+  if (e.shadeop != kNoShadeop || e.plugin) note_call(called(e));
   return e.function ? inline_function(e) : builtin_call(e);
+}
+
+// The compiler lets a unit name no more of them than fit.
+ShadeopId Lowering::called(const CallExpr& e) {
+  return e.plugin ? m_.plugins.add(e.plugin).value_or(kNoShadeop) : e.shadeop;
 }
 
 // What bodies of built-ins call is no call of the source. A function inlined twice calls in one place all the
 // same.
 void Lowering::note_call(ShadeopId row) {
-  if (library_depth_ > 0 || slvm::shadeop(row).flags & slvm::kInternal) return;
+  if (library_depth_ > 0 || m_.plugins.info(row).flags & slvm::kInternal) return;
   slvm::SourceCall call{row, b_.where.file, b_.where.line, b_.where.column};
   if (std::find(calls_.begin(), calls_.end(), call) == calls_.end()) calls_.push_back(call);
 }
@@ -87,7 +92,7 @@ slvm::ir::ValueId Lowering::random_call(const CallExpr& e, const slvm::ShadeopIn
 }
 
 slvm::ir::ValueId Lowering::builtin_call(const CallExpr& e) {
-  const slvm::ShadeopInfo& info = slvm::shadeop(e.shadeop);
+  const slvm::ShadeopInfo& info = e.info();
   if (info.name == "random" || info.name == "randomgrid") return random_call(e, info);
   if (info.flags & slvm::kLights) store_changed(true);
   const slvm::Signature& signature = info.signature;
@@ -116,13 +121,13 @@ slvm::ir::ValueId Lowering::builtin_call(const CallExpr& e) {
     }
   }
   if (info.flags & slvm::kRays && !signature.token_set.empty()) add_seed(args);
-  return call_into(e.shadeop, args, result_types, places);
+  return call_into(called(e), args, result_types, places);
 }
 
 slvm::ir::ValueId Lowering::call_into(ShadeopId id, const Values& args, const std::vector<Type>& result_types,
                                       const std::vector<Place>& places) {
   std::vector<ValueId> results = b_.call(id, args, result_types);
-  const bool has_result = slvm::shadeop(id).signature.result != Type::kVoid;
+  const bool has_result = m_.plugins.info(id).signature.result != Type::kVoid;
   size_t next = has_result;
   for (const Place& p : places) {
     if (p.whole_array) {

@@ -85,13 +85,15 @@ slvm::Facts collect_facts(const ir::Module& m, const std::vector<slvm::SourceCal
   facts.rays = !uses.rays.empty();
   facts.messages_read = named(uses.messages, true);
   facts.texture_names = named(uses.textures, false);
-  std::set<std::string> names;
+  std::set<std::string> names, libraries;
   for (const CallUse& use : uses.calls) {
-    names.insert(std::string(slvm::shadeop(use.shadeop).name));
+    names.insert(std::string(use.info().name));
+    if (use.plugin) libraries.insert(use.plugin->name().library);
     for (const SourceRange& place : use.places)
       facts.calls.push_back({use.shadeop, place.file, place.line, place.column});
   }
   facts.shadeops.assign(names.begin(), names.end());
+  facts.plugins.assign(libraries.begin(), libraries.end());
   return facts;
 }
 

@@ -61,6 +61,7 @@ std::vector<CompiledShader> Compiler::generate(const CheckedSource& checked, slv
     for (const Annotation& a : shader.annotations)
       p.annotations.push_back({a.id, a.text});
     p.facts = collect_facts(compiled.module, calls);
+    p.plugins = compiled.module.plugins; // of which facts.calls speaks
     p.ir = slvm::ir::serialise(compiled.module);
     if (options.optimise >= 2 && slvm::ir::fuse_products(compiled.module))
       slvm::ir::infer_detail(compiled.module);

@@ -121,6 +121,8 @@ private:
   ValueId inline_function(const CallExpr& e);
   ValueId builtin_call(const CallExpr& e);
   void note_call(ShadeopId row);
+  /// The row of a call, or the id of the plug-in's function among the module's.
+  ShadeopId called(const CallExpr& e);
   /// A call whose result comes first and whose outputs go to these places; gives the result.
   ValueId call_into(ShadeopId, const Values& args, const std::vector<Type>& result_types,
                     const std::vector<Place>& places);

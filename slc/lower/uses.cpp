@@ -96,8 +96,7 @@ private:
           trace(last.args[static_cast<size_t>(result)], out, depth + 1);
       return;
     }
-    if (maker && maker->op == ir::Op::kCall && depth < kDeepest &&
-        slvm::shadeop(static_cast<ShadeopId>(maker->index)).name == "operator?:") {
+    if (maker && maker->op == ir::Op::kCall && depth < kDeepest && m_.called(*maker).name == "operator?:") {
       trace(maker->args[1], out, depth + 1);
       return trace(maker->args[2], out, depth + 1);
     }
@@ -129,7 +128,7 @@ private:
   }
 
   void visit_call(const ir::Inst& inst) {
-    const slvm::ShadeopInfo& info = slvm::shadeop(static_cast<ShadeopId>(inst.index));
+    const slvm::ShadeopInfo& info = m_.called(inst);
     const slvm::Signature& s = info.signature;
     files(inst, info);
     if (info.name == "texture" && s.param_count == 2) read_.insert({"s", "t"}); // looked up there
@@ -150,7 +149,7 @@ private:
 
   /// A lookup of the map "raytrace".
   bool asks_for_rays(const ir::Inst& inst) const {
-    const slvm::ShadeopInfo& info = slvm::shadeop(static_cast<ShadeopId>(inst.index));
+    const slvm::ShadeopInfo& info = m_.called(inst);
     if (info.name != "environment" && info.name != "shadow") return false;
     std::vector<Naming> maps;
     trace(inst.args[0], maps);
@@ -170,7 +169,7 @@ private:
     };
     size_t next = 0; // outputs are no arguments
     for (int i = 0; i < s.param_count && next < inst.args.size(); ++i) {
-      const slvm::SignatureParam& p = s.params[static_cast<size_t>(i)];
+      const slvm::SignatureParam& p = s.param(i);
       if (p.input && (p.name == "file" || (i == 0 && info.flags & slvm::kTexture))) add_file(inst.args[next]);
       next += p.input;
     }
@@ -185,7 +184,7 @@ private:
   }
 
   void visit_gather(const ir::Inst& inst) {
-    const slvm::ShadeopInfo& info = slvm::shadeop(static_cast<ShadeopId>(inst.index));
+    const slvm::ShadeopInfo& info = m_.called(inst);
     add_named(uses_.rays, info.name, inst.args[0], inst.where);
     add(uses_.derivatives, info.name, {}, inst.where);
     gathered(inst, static_cast<size_t>(info.signature.param_count), ir::fixed_args(inst));
@@ -217,7 +216,7 @@ private:
     auto look = [&](const SourceRange& where) {
       for (const slvm::SourceCall& c : calls_)
         if (PlaceKey{c.file, c.line, c.column} == key(where) &&
-            slvm::shadeop(c.shadeop).flags & slvm::kLights)
+            m_.plugins.info(c.shadeop).flags & slvm::kLights)
           inlined.insert({key(where), c.shadeop});
     };
     look(inst.where);
@@ -228,7 +227,7 @@ private:
     if (statement) add_named(uses_.lights, "illuminance", inst.args[0], inst.where);
     for (auto& [place, row] : inlined) {
       auto [file, line, column] = place;
-      add_named(uses_.lights, slvm::shadeop(row).name, inst.args[0], {file, line, column, 0});
+      add_named(uses_.lights, m_.plugins.info(row).name, inst.args[0], {file, line, column, 0});
     }
   }
 
@@ -236,13 +235,14 @@ private:
   void source_calls() {
     std::map<std::pair<std::string_view, ShadeopId>, CallUse> rows;
     for (const slvm::SourceCall& c : calls_) {
-      const slvm::ShadeopInfo& info = slvm::shadeop(c.shadeop);
+      const slvm::ShadeopInfo& info = m_.plugins.info(c.shadeop);
       SourceRange place{c.file, c.line, c.column, 0};
       bool left = info.kind == slvm::ShadeopKind::kRsl ? worked_.contains(key(place))
                                                        : called_.contains({c.shadeop, key(place)});
       if (!left) continue;
       CallUse& use = rows[{info.name, c.shadeop}];
       use.shadeop = c.shadeop;
+      if (m_.plugins.find(c.shadeop)) use.plugin = m_.plugins.list()[c.shadeop - slvm::kFirstPluginShadeop];
       use.places.push_back(place);
       if (!(info.flags & slvm::kDerivative)) continue;
       add(uses_.derivatives, info.name, {}, place);

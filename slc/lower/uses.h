@@ -26,7 +26,9 @@ struct Use {
 
 struct CallUse {
   ShadeopId shadeop = kNoShadeop;
+  std::shared_ptr<const slvm::PluginShadeop> plugin; ///< null: a built-in
   std::vector<SourceRange> places;
+  const slvm::ShadeopInfo& info() const { return plugin ? plugin->info() : slvm::shadeop(shadeop); }
 };
 
 struct Uses {

@@ -21,7 +21,7 @@ TranslationUnit Parser::parse_file() {
     } else if (at_function()) {
       lost_ = false;
       unit_.definitions.push_back({parse_function(), nullptr});
-    } else if (!reject_rsl2_declaration()) {
+    } else if (!parse_plugin() && !reject_rsl2_declaration()) {
       parse_misplaced();
     }
     if (panic_) {
@@ -185,6 +185,18 @@ FunctionDef* Parser::parse_function() {
   function.formals = parse_formals(VariableKind::kFormal, function.broken);
   function.body = parse_body();
   return &function;
+}
+
+// `plugin "name";`, of RSL 2.0: its functions can be called from here on. True: there was one.
+bool Parser::parse_plugin() {
+  if (!at(TokenKind::kIdentifier) || current().text != "plugin" || peek().kind != TokenKind::kString ||
+      panic_)
+    return false;
+  advance();
+  unit_.plugins.push_back({current().text, current().range});
+  advance();
+  expect(TokenKind::kSemicolon, "';' behind the name of the plug-in");
+  return true;
 }
 
 // Constructs of RSL 2.0, by name. True: reported and skipped, or in panic.

@@ -32,6 +32,7 @@ private:
   void parse_misplaced();
   void parse_global_variable();
   std::unique_ptr<BlockStmt> parse_body();
+  bool parse_plugin();
   bool reject_rsl2_declaration();
   void assign_annotations();
 

@@ -74,8 +74,9 @@ std::shared_ptr<const BuiltinLibrary> BuiltinLibrary::load(std::span<const Embed
   return library;
 }
 
-void analyse(TranslationUnit& unit, std::shared_ptr<const BuiltinLibrary> library, slvm::Diagnostics& diags) {
-  Checker(unit, *library, false, diags).check_unit();
+void analyse(TranslationUnit& unit, std::shared_ptr<const BuiltinLibrary> library, slvm::Diagnostics& diags,
+             const slvm::PluginSource* plugins) {
+  Checker(unit, *library, false, diags, plugins).check_unit();
   check_contexts(unit, diags);
   unit.builtins = BuiltinLibrary::unit(std::move(library));
 }

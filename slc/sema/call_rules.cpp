@@ -78,7 +78,7 @@ Type Checker::wanted_by_pattern(const CallExpr& call, size_t arg) const {
 }
 
 void Checker::check_call_rules(CallExpr& call) {
-  if (call.function) return;
+  if (call.function || call.plugin) return;
   if (takes_pattern(call.name)) return check_print_pattern(call);
   if (call.name == "ctransform")
     for (const ExprPtr& arg : call.args)

@@ -51,6 +51,8 @@ std::vector<Candidate> Checker::candidates(const CallExpr& call, const std::vect
   for (ShadeopId id : slvm::shadeop_overloads(call.name))
     if (callable(id, in_library_)) rows.push_back({nullptr, id});
   user.insert(user.end(), rows.begin(), rows.end());
+  for (const auto& function : plugin_functions(call.name, user.empty()))
+    user.push_back({nullptr, kNoShadeop, function});
   return user;
 }
 
@@ -85,6 +87,12 @@ TypeSet Checker::analyse_call(CallExpr& call) {
 void Checker::report_unknown_function(const CallExpr& call) {
   if (std::string_view advice = function_hint(call.name); !advice.empty()) {
     report(diags_, Msg::kUnknownFunctionHint, call.name_range, call.name, advice);
+    return;
+  }
+  if (!plugin_trouble_[call.name].empty()) { // it may be in one that cannot be used
+    slvm::Diagnostic& d = report(diags_, Msg::kUnknownFunction, call.name_range, call.name);
+    for (const std::string& trouble : plugin_trouble_[call.name])
+      d.notes.push_back({{}, trouble});
     return;
   }
   if (unit_.misdeclared.contains(call.name)) return; // reported
@@ -170,8 +178,10 @@ void Checker::finish_call(ExprPtr& e, Type wanted) {
       if (r.viable[i].candidate.result() == Type::kFloat) chosen = r.viable[i].candidate;
     report(diags_, Msg::kAmbiguousResult, call.name_range, call.name);
   }
+  if (chosen.plugin) let_store(chosen, call);
   call.function = chosen.function;
   call.shadeop = chosen.row;
+  call.plugin = chosen.plugin;
   call.type = chosen.result();
   if (chosen.function && open_functions_.contains(chosen.function))
     report(diags_, Msg::kRecursion, call.range, call.name);
@@ -259,7 +269,7 @@ void Checker::finish_token(ExprPtr token, ExprPtr value, std::string_view set, s
 
 // A row with an RSL body: call that, with the token-value pairs in its surplus formals.
 void Checker::use_library_body(CallExpr& call) {
-  if (call.shadeop == kNoShadeop || slvm::shadeop(call.shadeop).kind != slvm::ShadeopKind::kRsl) return;
+  if (call.plugin || call.shadeop == kNoShadeop || call.info().kind != slvm::ShadeopKind::kRsl) return;
   call.function = library_.body(call.shadeop);
   if (!call.function) {
     report(diags_, Msg::kNoBody, call.range, call.name);
@@ -284,7 +294,7 @@ void Checker::use_library_body(CallExpr& call) {
 // min(a, b, c) becomes min(min(a, b), c).
 void Checker::fold_left(ExprPtr& e) {
   auto& call = *as<CallExpr>(e.get());
-  if (call.function || (slvm::shadeop(call.shadeop).flags & slvm::kFoldLeft) == 0) return;
+  if (call.function || (call.info().flags & slvm::kFoldLeft) == 0) return;
   while (call.args.size() > 2) {
     auto inner = std::make_unique<CallExpr>(call.range);
     inner->name = call.name;

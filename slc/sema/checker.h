@@ -26,8 +26,10 @@ namespace slc {
 class Checker {
 public:
   /// `library`: bodies of built-ins, or the one being made from `unit` itself when `in_library`.
-  Checker(TranslationUnit& unit, const BuiltinLibrary& library, bool in_library, slvm::Diagnostics& diags)
-      : unit_(unit), library_(library), in_library_(in_library), diags_(diags) {}
+  /// `plugins`: where functions of plug-ins are found; null: nowhere.
+  Checker(TranslationUnit& unit, const BuiltinLibrary& library, bool in_library, slvm::Diagnostics& diags,
+          const slvm::PluginSource* plugins = nullptr)
+      : unit_(unit), library_(library), in_library_(in_library), diags_(diags), plugins_(plugins) {}
 
   void check_unit();
 
@@ -129,6 +131,12 @@ private:
   void use_library_body(CallExpr&);
   void fold_left(ExprPtr&);
 
+  // plugin_calls.cpp
+  void load_plugins();
+  /// Functions of plug-ins; the folders are searched only for names that nothing else has.
+  const slvm::PluginSource::Functions& plugin_functions(const std::string& name, bool search);
+  void let_store(Candidate& chosen, const CallExpr&);
+
   // call_rules.cpp: what single functions ask for beyond their types
   void check_call_rules(CallExpr&);
   void check_print_pattern(CallExpr&);
@@ -142,6 +150,10 @@ private:
   const BuiltinLibrary& library_;
   bool in_library_;
   slvm::Diagnostics& diags_;
+  const slvm::PluginSource* plugins_;
+  std::map<std::string, slvm::PluginSource::Functions> plugin_functions_; ///< by name, as far as known
+  std::set<std::string> searched_;
+  std::map<std::string, std::vector<std::string>> plugin_trouble_; ///< what was wrong with libraries, by name
   Scopes scopes_;
   Usage usage_;
   /// Replaced nodes, kept to the end: the tables below know expressions by their addresses.

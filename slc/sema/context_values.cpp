@@ -123,14 +123,14 @@ Variation ContextWalk::assign(AssignExpr& e) {
 }
 
 Variation ContextWalk::call(CallExpr& e) {
-  bool rsl_body = e.shadeop != kNoShadeop;
+  bool rsl_body = e.shadeop != kNoShadeop || e.plugin;
   if (e.function && !rsl_body) return inlined(e);
   if (rsl_body) return row_call(e);
   return values(e.args);
 }
 
 Variation ContextWalk::row_call(CallExpr& e) {
-  const slvm::ShadeopInfo& info = slvm::shadeop(e.shadeop);
+  const slvm::ShadeopInfo& info = e.info();
   const slvm::Signature& signature = info.signature;
   check_row_place(e, info.flags);
   Variation variation;
@@ -144,7 +144,9 @@ Variation ContextWalk::row_call(CallExpr& e) {
   for (size_t i = 0; i < e.args.size(); ++i) {
     if (i < count && param(i).output && !param(i).input) continue;
     Variation arg = value(e.args[i].get());
-    if (arg && i < count && param(i).uniform)
+    // A declared uniform that was set at some points is one to a plug-in that sets it.
+    const bool own = e.plugin && i < count && param(i).output && arg.degree == kSomewhere;
+    if (arg && i < count && param(i).uniform && !own)
       complain_of(arg.why, Msg::kNeedsUniform, e.args[i]->range, param(i).name, e.name);
     bool message = i < count && param(i).output && param(i).any;
     if (!message) variation |= arg;
@@ -153,10 +155,11 @@ Variation ContextWalk::row_call(CallExpr& e) {
     if (!param(i).output) continue;
     // What a message brings is as uniform as the variable is declared.
     const auto* place = as<VariableExpr>(e.args[i].get());
-    bool uniform_target = param(i).any && place && place->variable &&
+    bool uniform_target = (param(i).any || e.plugin) && place && place->variable &&
                           (always_uniform(*place->variable) || place->variable->type == Type::kString);
     Variation brought = variation;
     if (param(i).any) brought = {kVarying, {Reason::kBuiltin, e.range, e.name, nullptr}};
+    if (param(i).uniform && !param(i).any) brought = {};
     store(*e.args[i], uniform_target ? Variation() : brought, e.args[i]->range);
   }
   variation |= tokens(e.tokens, variation);

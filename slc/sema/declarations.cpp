@@ -21,6 +21,7 @@ std::string variable_type(const Variable& v) {
 
 void Checker::check_unit() {
   scopes_.enter();
+  load_plugins();
   std::set<std::string_view> shader_names;
   for (Definition& d : unit_.definitions) {
     if (d.function) check_function(*d.function);

@@ -8,11 +8,11 @@
 namespace slc {
 namespace {
 
-const slvm::Signature& signature(ShadeopId row) {
-  return slvm::shadeop(row).signature;
+const slvm::Signature& signature(const Candidate& c) {
+  return c.info().signature;
 }
-bool folds(ShadeopId row) {
-  return (slvm::shadeop(row).flags & slvm::kFoldLeft) != 0;
+bool folds(const Candidate& c) {
+  return (c.info().flags & slvm::kFoldLeft) != 0;
 }
 
 std::string param_text(const Param& p) {
@@ -42,26 +42,26 @@ int argument_cost(const Param& p, const Argument& a) {
 }
 
 Type Candidate::result() const {
-  return function ? function->result : signature(row).result;
+  return function ? function->result : signature(*this).result;
 }
 
 std::string_view Candidate::token_set() const {
-  return function ? std::string_view() : signature(row).token_set;
+  return function ? std::string_view() : signature(*this).token_set;
 }
 
 bool Candidate::takes_count(size_t args) const {
   if (function) return args == function->formals.size();
-  const slvm::Signature& s = signature(row);
+  const slvm::Signature& s = signature(*this);
   auto count = static_cast<size_t>(s.param_count);
   if (args == count) return true;
   if (args < count) return false;
-  if (s.variadic() || folds(row)) return true;
+  if (s.variadic() || folds(*this)) return true;
   return !s.token_set.empty() && (args - count) % 2 == 0;
 }
 
 size_t Candidate::positional(size_t args) const {
   if (token_set().empty()) return args;
-  return std::min(args, static_cast<size_t>(signature(row).param_count));
+  return std::min(args, static_cast<size_t>(signature(*this).param_count));
 }
 
 Param Candidate::param(size_t i) const {
@@ -75,9 +75,9 @@ Param Candidate::param(size_t i) const {
     p.name = v.name;
     return p;
   }
-  const slvm::SignatureParam& s = signature(row).param(static_cast<int>(i));
+  const slvm::SignatureParam& s = signature(*this).param(static_cast<int>(i));
   p.type = s.type;
-  p.array_length = s.array ? kOpenArray : kNotArray;
+  p.array_length = !s.array ? kNotArray : s.elements ? static_cast<int>(s.elements) : kOpenArray;
   p.any = s.any;
   p.output = s.output;
   p.input = s.input;
@@ -87,8 +87,8 @@ Param Candidate::param(size_t i) const {
 }
 
 std::string Candidate::text() const {
-  std::string_view name = function ? std::string_view(function->name) : slvm::shadeop(row).name;
-  size_t count = function ? function->formals.size() : static_cast<size_t>(signature(row).param_count);
+  std::string_view name = function ? std::string_view(function->name) : info().name;
+  size_t count = function ? function->formals.size() : static_cast<size_t>(signature(*this).param_count);
   std::string text = fmt::format("{} {}(", slvm::type_name(result()), name);
   for (size_t i = 0; i < count; ++i) {
     // What the language writes in brackets behind the name of a texture.
@@ -100,9 +100,10 @@ std::string Candidate::text() const {
     if (i) text += ", ";
     text += param_text(param(i));
   }
-  if (!function && (signature(row).variadic() || folds(row))) text += "...";
+  if (!function && (signature(*this).variadic() || folds(*this))) text += "...";
   if (!token_set().empty()) text += ", token, value...";
   text += ')';
+  if (plugin) text += fmt::format(", of the plug-in {}", plugin->name().library);
   return text;
 }
 
@@ -110,8 +111,11 @@ int call_cost(const Candidate& c, const std::vector<Argument>& args) {
   if (!c.takes_count(args.size())) return kImpossible;
   size_t positional = c.positional(args.size());
   int cost = 0;
-  for (size_t i = 0; i < positional; ++i)
+  for (size_t i = 0; i < positional; ++i) {
+    // A plug-in that wants so many elements cannot be given an array whose length is the caller's affair.
+    if (c.plugin && c.param(i).array_length > 0 && args[i].array_length == kOpenArray) return kImpossible;
     cost += argument_cost(c.param(i), args[i]);
+  }
   for (size_t i = positional; i < args.size(); i += 2)
     cost += argument_cost({.type = Type::kString}, args[i]);
   return cost;

@@ -21,11 +21,14 @@ struct Param {
   std::string_view name = {};
 };
 
-/// A function of the source, or a row of the table.
+/// A function of the source, a row of the table, or a function of a plug-in.
 struct Candidate {
   const FunctionDef* function = nullptr;
   ShadeopId row = kNoShadeop;
+  std::shared_ptr<const slvm::PluginShadeop> plugin = {};
 
+  /// Of a row or of a plug-in's function.
+  const slvm::ShadeopInfo& info() const { return plugin ? plugin->info() : slvm::shadeop(row); }
   Type result() const;
   bool takes_count(size_t args) const;  ///< token-value pairs included
   size_t positional(size_t args) const; ///< how many of them are not token-value pairs

@@ -42,7 +42,12 @@ slvm::Result<Inspected> inspect(slvm::Program program, std::string path, bool wi
   if (!with_uses || program.ir.empty()) return Inspected{std::move(program), std::move(path), {}};
   auto module = slvm::ir::deserialise(program.ir);
   if (!module) return slvm::Error{"damaged: " + module.error()};
-  Uses uses = collect_uses(*module, program.facts.calls);
+  std::vector<slvm::SourceCall> calls = program.facts.calls;
+  for (slvm::SourceCall& c : calls) // functions of plug-ins have other ids there
+    if (program.plugins.find(c.shadeop))
+      if (auto id = module->plugins.add(program.plugins.list()[c.shadeop - slvm::kFirstPluginShadeop]))
+        c.shadeop = *id;
+  Uses uses = collect_uses(*module, calls);
   return Inspected{std::move(program), std::move(path), std::move(uses)};
 }
 

@@ -67,9 +67,10 @@ Json uses_as_json(const Inspected& shader, const std::vector<Use>& list) {
 Json calls_as_json(const Inspected& shader) {
   Json json = Json::array();
   for (const CallUse& use : shader.uses.calls) {
-    const slvm::ShadeopInfo& info = slvm::shadeop(use.shadeop);
+    const slvm::ShadeopInfo& info = use.info();
     json.push_back({{"name", info.name},
                     {"signature", info.signature_text},
+                    {"plugin", use.plugin ? Json(use.plugin->name().library) : Json(nullptr)},
                     {"count", use.places.size()},
                     {"places", places_as_json(shader, use.places)}});
   }

@@ -10,6 +10,7 @@
 #include "slvm/format/disasm.h"
 #include "slvm/format/slo.h"
 #include "slvm/ir/print.h"
+#include "slvm/plugin/finder.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -30,7 +31,11 @@ enum ExitCode { kFine = 0, kBadInput = 1, kBadUsage = 2, kMissingFile = 3, kInte
 // Compiles the files of one command line.
 class Run {
 public:
-  explicit Run(const ToolOptions& options) : options_(options) {}
+  explicit Run(const ToolOptions& options)
+      : options_(options), compile_(options.compile), plugins_(options.plugin_folders) {
+    compile_.plugins = &plugins_;
+    compile_.evaluator = evaluator_.get();
+  }
 
   int run();
 
@@ -48,6 +53,8 @@ private:
   const ToolOptions& options_;
   slc::Compiler compiler_;
   std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_ = slvm::make_kernel_evaluator();
+  slc::CompileOptions compile_; // with what the program hands in
+  slvm::PluginFinder plugins_;
   slvm::SourceManager sources_; // of the current file
   slvm::Diagnostics diags_;
   int worst_ = kFine;
@@ -105,7 +112,7 @@ int Run::compile_file(const std::string& path) {
   slvm::FileId file = sources_.add(name, std::move(*text));
   if (options_.preprocess_only || options_.dependencies_only) return preprocess_only(file);
 
-  slc::CheckedSource checked = compiler_.check(file, options_.compile, sources_, diags_);
+  slc::CheckedSource checked = compiler_.check(file, compile_, sources_, diags_);
   int code = diags_.has_errors() ? kBadInput : kFine;
   if (options_.dump == "ast") fmt::print("{}", slc::print_ast(checked.unit));
   std::vector<std::string> written;
@@ -143,9 +150,7 @@ int Run::preprocess_only(slvm::FileId file) {
 
 // Prints what --dump asks for, or writes one .slo for each shader of the file, named after the shader.
 int Run::generate(const slc::CheckedSource& checked, slvm::FileId file, std::vector<std::string>& written) {
-  slc::CompileOptions compile = options_.compile;
-  compile.evaluator = evaluator_.get();
-  std::vector<slc::CompiledShader> shaders = compiler_.generate(checked, file, compile, sources_);
+  std::vector<slc::CompiledShader> shaders = compiler_.generate(checked, file, compile_, sources_);
   if (shaders.size() > 1 && !options_.output.empty() && options_.dump.empty()) {
     fmt::print(stderr, "slc: -o names one file, but '{}' defines {} shaders; use -d\n", sources_.name(file),
                shaders.size());

@@ -4,6 +4,7 @@
 
 #include "slc/diag/messages.h"
 #include "slvm/support/path_list.h"
+#include "slvm/support/shared_library.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // Options of several letters behind one dash, and what they are called here.
-constexpr std::string_view kSingleDash[] = {"-MM",     "-MD",   "-MMD",    "-MF",        "-MT",
-                                            "-nw",     "-lint", "-nolint", "-lintpoint", "-lintspace",
-                                            "-strict", "-help", "-version"};
+constexpr std::string_view kSingleDash[] = {"-MM",     "-MD",   "-MMD",     "-MF",        "-MT",
+                                            "-nw",     "-lint", "-nolint",  "-lintpoint", "-lintspace",
+                                            "-strict", "-help", "-version", "-dso"};
 
 struct Dialect {
   std::string_view name;
@@ -75,6 +76,7 @@ struct Flags {
   bool lint = false, nolint = false, lintpoint = false, lintspace = false, strict = false;
   bool version = false;
   std::string dialect, explain;
+  std::vector<std::string> plugins;
 };
 
 void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
@@ -89,6 +91,8 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
   list("-I", o.compile.preprocess.include_dirs, "Add a folder to search for included files");
   list("-D", o.compile.preprocess.defines, "Define a macro: NAME or NAME=VALUE");
   list("-U", o.compile.preprocess.undefines, "Undefine a macro; wins over -D");
+  list("--dso", f.plugins,
+       "Add folders of plug-ins, separated by colons: libraries with functions that the source may call");
   app.add_option("--dialect", f.dialect,
                  "Define the macros of another compiler: prman, 3delight, aqsis, pixie, bmrt");
   app.add_flag("-E", o.preprocess_only, "Preprocess only, to standard output or -o");
@@ -131,7 +135,7 @@ void add_options(CLI::App& app, ToolOptions& o, Flags& f) {
   app.footer(
       "Environment: SLC_OPTIONS holds options that come before those of the command line, SLC_INCLUDE "
       "folders to\n"
-      "search after those of -I.\n"
+      "search after those of -I, ANEMONE_DSO_PATH folders after those of --dso.\n"
       "Exit status: 0 fine, 1 the input is wrong, 2 wrong usage, 3 a file is missing, 4 internal error.");
 }
 
@@ -189,6 +193,10 @@ std::optional<int> apply(ToolOptions& o, const Flags& f) {
   if (const char* folders = std::getenv("SLC_INCLUDE"))
     for (std::string& folder : slvm::split_path_list(folders))
       o.compile.preprocess.system_dirs.push_back(std::move(folder));
+  std::string plugins;
+  for (const std::string& folders : f.plugins)
+    plugins += folders + ":";
+  o.plugin_folders = slvm::plugin_folders(plugins);
   o.dependencies_only = f.m || f.mm;
   o.dependencies = f.md || f.mmd;
   o.system_dependencies = !f.mm && !f.mmd;

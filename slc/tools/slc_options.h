@@ -13,6 +13,7 @@ struct ToolOptions {
   std::string output_dir;          ///< -d
   std::string stdin_name = "<stdin>";
   CompileOptions compile;
+  std::vector<std::string> plugin_folders;        ///< --dso and the environment
   slvm::Diagnostics diagnostics;                  ///< without messages: which warnings are on
   bool preprocess_only = false;                   ///< -E
   bool dependencies_only = false;                 ///< -M, -MM

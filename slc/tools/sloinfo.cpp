@@ -4,6 +4,7 @@
 #include "slc/tools/shader_json.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
+#include "slvm/plugin/finder.h"
 #include "slvm/support/path_list.h"
 
 #include <CLI/CLI.hpp>
@@ -32,7 +33,7 @@ EXIT STATUS
 
 struct Options {
   std::vector<std::string> inputs;
-  std::string path, param;
+  std::string path, param, plugin_folders;
   bool plugins = false, metadata = false, json = false;
   slc::Listings listings;
 };
@@ -53,7 +54,9 @@ std::vector<std::string> search_path(const std::string& text) {
 
 class Run {
 public:
-  explicit Run(const Options& options) : options_(options), folders_(search_path(options.path)) {}
+  explicit Run(const Options& options)
+      : options_(options), folders_(search_path(options.path)),
+        plugins_(slvm::plugin_folders(options.plugin_folders)) {}
 
   int run() {
     for (const std::string& input : options_.inputs)
@@ -102,6 +105,7 @@ private:
     slc::CompileOptions compile_options;
     compile_options.evaluator = evaluator_.get();
     compile_options.preprocess.include_dirs = folders_;
+    compile_options.plugins = &plugins_;
     auto shaders = compiler_.compile(sources.add(name, std::move(source)), compile_options, sources, diags);
     if (diags.has_errors()) return fail(kBadInput, slvm::format_diagnostics(diags, sources));
     if (shaders.empty())
@@ -132,6 +136,7 @@ private:
 
   const Options& options_;
   std::vector<std::string> folders_;
+  slvm::PluginFinder plugins_;
   slc::Compiler compiler_;
   std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_ = slvm::make_kernel_evaluator();
   std::vector<slc::Inspected> shaders_;
@@ -165,6 +170,10 @@ int run(int argc, char** argv) {
   for (auto& [name, flag, text] : flags)
     app.add_flag(name, flag, text)->excludes(plugins)->excludes(metadata)->excludes(param);
   app.add_option("--path", options.path, "Folders, separated by colons, in which shaders are searched")
+      ->type_name("DIRS");
+  app.add_option("--dso", options.plugin_folders,
+                 "Folders, separated by colons, of plug-ins whose functions a .sl source calls "
+                 "(environment: ANEMONE_DSO_PATH)")
       ->type_name("DIRS");
   app.set_version_flag("--version", "sloinfo (Anemone) 0.1.0");
   app.footer(kFooter);

@@ -58,11 +58,12 @@ std::string calls_section(const Inspected& shader) {
   const std::vector<CallUse>& calls = shader.uses.calls;
   std::string text = calls.empty() ? "" : fmt::format("{}functions\n", kSection);
   for (const CallUse& use : calls) {
-    const slvm::ShadeopInfo& info = slvm::shadeop(use.shadeop);
+    const slvm::ShadeopInfo& info = use.info();
     size_t count = use.places.size();
-    text +=
-        fmt::format("{}{} {}: {} call{}, {}\n", kEntry, in_quotes(info.name), in_quotes(info.signature_text),
-                    count, count == 1 ? "" : "s", places_text(shader, use.places));
+    text += fmt::format("{}{} {}{}: {} call{}, {}\n", kEntry, in_quotes(info.name),
+                        in_quotes(info.signature_text),
+                        use.plugin ? " of the plug-in " + in_quotes(use.plugin->name().library) : "", count,
+                        count == 1 ? "" : "s", places_text(shader, use.places));
   }
   return text;
 }

@@ -10,6 +10,8 @@
 
 namespace slvm {
 
+struct HostedFunction; // slvm/exec/plugin_host.h
+
 /// Memory for planes: aligned, not initialised, grows only.
 class PlaneMemory {
 public:
@@ -42,6 +44,7 @@ struct Instance::Bound {
   struct Import {
     Kernel kernel = nullptr;
     GridOp grid_op = nullptr;
+    HostedFunction* plugin = nullptr; ///< a function of a plug-in; the machine's
   };
   std::vector<Import> imports;
   std::vector<Global> globals;   ///< by slot; kCount for parameters

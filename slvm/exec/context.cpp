@@ -1,5 +1,6 @@
 // ShadingContext: the order of shaders on a grid.
 #include "slvm/exec/observer.h"
+#include "slvm/exec/plugin_host.h"
 #include "slvm/exec/run.h"
 
 #include <algorithm>
@@ -8,7 +9,10 @@
 namespace slvm {
 
 struct ShadingContext::Impl {
-  Impl(const Machine& m, RendererServices& s) : state{m, s, cache, LightKernels(m.kernels())} {}
+  Impl(const Machine& m, RendererServices& s)
+      : state{m, s, cache, LightKernels(m.kernels())}, plugins(m.plugins()) {
+    state.plugins = &plugins;
+  }
 
   enum Role { kDisplacement, kSurface, kAtmosphere, kInterior, kExterior, kSingle, kRoles };
 
@@ -68,6 +72,7 @@ struct ShadingContext::Impl {
   LightCache cache;
   ShaderSet shaders;
   GridState state;
+  PluginThread plugins;
   std::unique_ptr<ShaderRun> runs[kRoles];
   uint64_t ids[kRoles] = {};
 };
@@ -140,6 +145,7 @@ void ShadingContext::shade_surface(const ShaderSet& set, Grid& grid) {
 
 void ShadingContext::shade_atmosphere() {
   impl_->execute(Impl::kAtmosphere, impl_->shaders.atmosphere);
+  impl_->plugins.end_grid();
 }
 
 void ShadingContext::shade(const ShaderSet& set, Grid& grid) {
@@ -152,6 +158,7 @@ void ShadingContext::run(const Instance& instance, Grid& grid) {
   impl_->forget_runs();
   impl_->execute(Impl::kSingle, &instance);
   if (instance.shader().kind() == ShaderKind::kLight) light_to_grid(*impl_->runs[Impl::kSingle], grid);
+  impl_->plugins.end_grid();
 }
 
 const Planes* ShadingContext::output(const Instance& instance, std::string_view name) const {

@@ -2,6 +2,7 @@
 // are, how many lanes) and in whose mask stack control flow works on. It is compiled twice: with an observer
 // told of each instruction, and without.
 #include "slvm/exec/observer.h"
+#include "slvm/exec/plugin_call.h"
 #include "slvm/exec/rays/gather.h"
 #include "slvm/exec/run.h"
 
@@ -130,22 +131,31 @@ void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<con
     call_kernel(f, target.kernel, operands_.data(), static_cast<uint32_t>(words.size()));
     return;
   }
-  const ShadeopInfo& info = shadeop(program.imports[import]);
+  const ShadeopInfo& info = program.plugins.info(program.imports[import]);
   uint32_t level = 0;
   decode_call(info, words, decoded_, level);
   grid_operands_.clear();
   for (const CallOperand& o : decoded_)
     grid_operands_.push_back({operand(f, o.word), o.type, operand_space(o.word) == Space::kArray, o.store});
+  const GridCall grid_call{*this, info, grid_operands_, level, pc};
+  if (target.plugin)
+    call_plugin(grid_call, *target.plugin);
+  else if (info.flags & kRays && state.grid->samples() < points)
+    shoot_from_samples(grid_call, target.grid_op);
+  else
+    target.grid_op(grid_call);
+}
+
+// Of hits, the points beside shoot no rays of their own: what those of the hit bring holds for them, too.
+void ShaderRun::shoot_from_samples(const GridCall& call, GridOp op) {
   const size_t samples = state.grid->samples();
-  if (!(info.flags & kRays) || samples == points) return target.grid_op({*this, info, grid_operands_, level, pc});
-  // Of hits, the points beside shoot no rays of their own: what those of the hit bring holds for them, too.
   entered_.assign(mask.words(), 0);
   for (size_t i = 0; i < entered_.size(); ++i)
     entered_[i] = full_mask_word(i, samples);
   mask.push_if(entered_.data());
-  target.grid_op({*this, info, grid_operands_, level, pc});
+  op(call);
   mask.pop_if();
-  for (const GridOperand& o : grid_operands_) {
+  for (const GridOperand& o : call.operands) {
     if (!o.store || !o.planes.step) continue;
     const size_t planes = static_cast<size_t>(components(o.type)) * (o.array ? o.planes.elements : 1);
     for (size_t c = 0; c < planes; ++c)
@@ -378,8 +388,8 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
   }
 }
 
-// Goes to the next ray that a lane still in the loop has, at `body`; after the last one past the endgather at `end`, or
-// to where that says when no lane is left.
+// Goes to the next ray that a lane still in the loop has, at `body`; after the last one past the endgather at
+// `end`, or to where that says when no lane is left.
 uint32_t ShaderRun::next_ray(const Frame& f, MaskStack& m, uint32_t body, uint32_t end) {
   GatherLoop& loop = *gathers.current();
   if (loop.next(*this, m.in_loop()) && take_round(end, mask_count(m.in_loop(), f.active))) {

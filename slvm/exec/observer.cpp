@@ -26,7 +26,8 @@ const Program& ExecutionStep::program() const {
 
 const ShadeopInfo* ExecutionStep::call() const {
   const uint16_t opcode = instruction_opcode(run_.program.code[code_]);
-  return opcode < kFirstShadeop ? nullptr : &shadeop(run_.program.imports[opcode - kFirstShadeop]);
+  return opcode < kFirstShadeop ? nullptr
+                                : &run_.program.plugins.info(run_.program.imports[opcode - kFirstShadeop]);
 }
 
 StepOperand ExecutionStep::operand_of(uint32_t word) const {

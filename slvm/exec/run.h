@@ -13,6 +13,8 @@
 
 namespace slvm {
 
+class PluginThread; // slvm/exec/plugin_host.h
+
 /// What the runs of one context share, and the grid they are on.
 struct GridState {
   const Machine& machine;
@@ -28,6 +30,7 @@ struct GridState {
   const ShaderRun* interior = nullptr; ///< these two never run here: their parameters only
   const ShaderRun* exterior = nullptr;
   ExecutionObserver* observer = nullptr; ///< told of each instruction; null: nobody
+  PluginThread* plugins = nullptr;       ///< what this thread has of plug-ins
 };
 
 /// Where operands are, for the lanes being run: a strip, or the whole grid.
@@ -124,6 +127,7 @@ private:
   template <bool kObserved>
   void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end, bool all);
   void call(const Frame& frame, uint32_t pc, uint16_t import, std::span<const uint32_t> words);
+  void shoot_from_samples(const GridCall& call, GridOp op);
   void copy_planes(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words, bool masked);
   void first_active(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words);
   void array_load(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
@@ -145,7 +149,8 @@ private:
   /// The lanes still in a loop go on to the next round; false: there are none, or they have gone round for
   /// too long.
   bool next_round(const Frame& frame, MaskStack& mask, uint32_t pc);
-  /// Counts a round of those most_rounds allows. False, with a message: there are no more, and the loop must be left.
+  /// Counts a round of those most_rounds allows. False, with a message: there are no more, and the loop must
+  /// be left.
   bool take_round(uint32_t pc, size_t lanes);
 
   Frame frame_{};

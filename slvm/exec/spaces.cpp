@@ -1,4 +1,6 @@
 // Matrices between named coordinate systems, and the table of grid ops.
+#include "slvm/exec/spaces.h"
+
 #include "slvm/exec/run.h"
 
 #include <algorithm>
@@ -6,9 +8,7 @@
 #include <fmt/format.h>
 
 namespace slvm {
-namespace {
 
-// `forward`: space to current; else current to space.
 bool named_space(const ShaderRun& run, std::string_view space, bool forward, Matrix4& m) {
   auto known = [&](const Matrix4& to_current) {
     if (forward)
@@ -24,6 +24,8 @@ bool named_space(const ShaderRun& run, std::string_view space, bool forward, Mat
   return forward ? run.state.services.space_to_current(state, space, m)
                  : run.state.services.current_to_space(state, space, m);
 }
+
+namespace {
 
 std::string_view text_of(const GridCall& call, size_t operand) {
   return call.run.state.machine.strings().text(std::bit_cast<uint32_t>(*call.operands[operand].planes.data));

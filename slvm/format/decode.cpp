@@ -32,23 +32,24 @@ public:
       words_ = words_.first(words_.size() - 1);
     }
     const Signature& s = info.signature;
-    if (s.result != Type::kVoid && !take({0, s.result, true, false, s.uniform_result}, false)) return false;
+    if (s.result != Type::kVoid && !take({0, s.result, true, false, s.uniform_result, 0}, false))
+      return false;
     for (int i = 0; i < s.param_count; ++i) {
-      const SignatureParam& p = s.params[static_cast<size_t>(i)];
-      if (p.output && !take({0, p.type, true, p.array, p.uniform}, p.any)) return false;
+      const SignatureParam& p = s.param(i);
+      if (p.output && !take({0, p.type, true, p.array, p.uniform, p.elements}, p.any)) return false;
     }
     for (; token_outputs > 0; --token_outputs)
-      if (!take({0, Type::kFloat, true, false, false}, true)) return false;
+      if (!take({0, Type::kFloat, true, false, false, 0}, true)) return false;
     for (int i = 0; i < s.param_count; ++i) {
-      const SignatureParam& p = s.params[static_cast<size_t>(i)];
+      const SignatureParam& p = s.param(i);
       if (!p.input) continue;
       do {
-        if (!take({0, p.type, false, p.array, p.uniform}, p.any)) return false;
+        if (!take({0, p.type, false, p.array, p.uniform, p.elements}, p.any)) return false;
       } while (p.variadic && !words_.empty());
     }
     while (!s.token_set.empty() && !words_.empty())
-      if (!take({0, Type::kString, false, false, true}, false) ||
-          !take({0, Type::kFloat, false, false, false}, true))
+      if (!take({0, Type::kString, false, false, true, 0}, false) ||
+          !take({0, Type::kFloat, false, false, false, 0}, true))
         return false;
     return words_.empty();
   }

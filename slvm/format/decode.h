@@ -13,8 +13,9 @@ struct CallOperand {
   uint32_t word = 0;
   Type type = Type::kFloat;
   bool store = false;
-  bool array = false;   ///< must be an array operand
-  bool uniform = false; ///< must be uniform
+  bool array = false;    ///< must be an array operand
+  bool uniform = false;  ///< must be uniform
+  uint32_t elements = 0; ///< that the array must have; 0: any number
 };
 
 /// Of a mask level: what is differentiated came from a ray (kScattered), and neighbours' values say nothing

@@ -94,7 +94,7 @@ private:
   }
 
   std::string call(uint16_t opcode, std::span<const uint32_t> words) {
-    const ShadeopInfo& info = shadeop(p_.imports[opcode - kFirstShadeop]);
+    const ShadeopInfo& info = p_.plugins.info(p_.imports[opcode - kFirstShadeop]);
     uint32_t level = 0;
     std::string stores, reads;
     if (!decode_call(info, words, operands_, level)) return std::string(info.name) + " ?";

@@ -3,6 +3,7 @@
 // may rely on).
 #pragma once
 
+#include "slvm/format/plugin_shadeop.h"
 #include "slvm/format/shadeop_info.h"
 #include "slvm/value.h"
 
@@ -144,6 +145,7 @@ struct Program {
   Facts facts;
 
   std::vector<ShadeopId> imports; ///< in files by name and signature
+  PluginShadeops plugins;         ///< functions of plug-ins among imports and facts.calls
   std::vector<Slot> slots;
   std::vector<float> constants;     ///< one a plane
   std::vector<std::string> strings; ///< constant strings

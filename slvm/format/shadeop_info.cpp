@@ -27,7 +27,7 @@ constexpr ShadeopInfo kRows[] = {
 #undef PENDING
 };
 constexpr size_t kRowCount = std::size(kRows);
-static_assert(kRowCount < 0xffff, "a ShadeopId has 16 bits");
+static_assert(kRowCount < kFirstPluginShadeop, "ids above are those of plug-ins");
 
 /// The first row whose signature does not parse, or kRowCount.
 constexpr size_t first_bad_row() {

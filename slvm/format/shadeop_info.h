@@ -18,6 +18,7 @@ enum class ShadeopKind : uint8_t {
   kRsl,     ///< an RSL body in stdlib/builtins, inlined by slc; never appears in compiled code
   kPending, ///< known to the language and type-checked; binding a shader that still calls it is an error
             ///< naming it
+  kPlugin,  ///< a function of a plug-in, no row of the table: slvm/format/plugin_shadeop.h
 };
 
 /// Properties, or-ed in the flags column.
@@ -55,6 +56,8 @@ struct ShadeopInfo {
 };
 
 using ShadeopId = uint16_t;
+/// Ids from here on are functions of plug-ins: a program's or module's own list names them.
+inline constexpr ShadeopId kFirstPluginShadeop = 0x8000;
 
 /// All rows, in table order; a ShadeopId indexes it. Ids are not stable between versions: .slo files store
 /// names and signatures.

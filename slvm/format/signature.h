@@ -2,25 +2,28 @@
 // the table in shadeops.def stays readable and the types of an overload are written exactly once.
 //
 //   signature = [ "uniform" ] type "(" [ param { "," param } ] ")"
-//   param     = { "uniform" | "output" | "inout" } ( type | "any" ) [ "[" "]" ] name [ "..." ]
+//   param     = { "uniform" | "output" | "inout" } ( type | "any" ) [ "[" [ number ] "]" ] name [ "..." ]
 //             | "@" token_set                  optional token-value pairs, see tokens.def; always last
 //
 //   uniform   of a parameter: the argument must be uniform. Of the result: uniform whatever the arguments
 //   are. output    the call stores there and does not read it;  inout  it reads and stores. Both need a
 //   variable. any       a value of any type (printf arguments, message values).
 //   ...       on the last parameter: one or more arguments of this kind.
-//   []        an array of any length.
+//   []        an array of any length; [3]: of this length (functions of plug-ins).
 #pragma once
 
 #include "slvm/format/types.h"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace slvm {
 
 inline constexpr int kMaxParams = 12;
+inline constexpr uint32_t kMaxElements = 1u << 20; ///< that a parameter may ask for
 
 struct SignatureParam {
   Type type = Type::kVoid; // meaningless when `any`
@@ -30,6 +33,7 @@ struct SignatureParam {
   bool input = true;   // false for pure outputs
   bool array = false;
   bool variadic = false;
+  uint32_t elements = 0; // of an array of fixed length; 0: of any
   std::string_view name;
 };
 
@@ -38,14 +42,16 @@ struct Signature {
   bool uniform_result = false;
   int param_count = 0;
   std::array<SignatureParam, kMaxParams> params{};
-  std::string_view token_set; // "" when the shadeop takes no token-value pairs
-  bool ok = false;            // false: the text does not follow the grammar above
+  const SignatureParam* room = nullptr; // where the parameters are instead: those of plug-ins, any number
+  std::string_view token_set;           // "" when the shadeop takes no token-value pairs
+  bool ok = false;                      // false: the text does not follow the grammar above
 
   /// Fewest and most arguments before token-value pairs; most is -1 for "any number".
   constexpr int min_args() const { return param_count; }
-  constexpr bool variadic() const { return param_count > 0 && params[param_count - 1].variadic; }
+  constexpr bool variadic() const { return param_count > 0 && param(param_count - 1).variadic; }
   constexpr const SignatureParam& param(int i) const {
-    return params[i < param_count ? i : param_count - 1]; // surplus arguments belong to the variadic one
+    const SignatureParam* list = room ? room : params.data();
+    return list[i < param_count ? i : param_count - 1]; // surplus arguments belong to the variadic one
   }
 };
 
@@ -102,6 +108,9 @@ struct SignatureParser {
     else if (!parse_type(w, p.type) || p.type == Type::kVoid)
       return false;
     if (take('[')) {
+      for (skip_blanks(); at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at)
+        if ((p.elements = p.elements * 10 + static_cast<uint32_t>(text[at] - '0')) > kMaxElements)
+          return false;
       if (!take(']')) return false;
       p.array = true;
     }
@@ -113,38 +122,46 @@ struct SignatureParser {
     }
     return true;
   }
-  constexpr Signature parse() {
-    Signature s;
+  /// The parameters go to `params`, of which there are `most`.
+  constexpr void parse(Signature& s, SignatureParam* params, int most) {
     std::string_view w = word();
     if (w == "uniform") {
       s.uniform_result = true;
       w = word();
     }
-    if (!parse_type(w, s.result) || !take('(')) return s;
+    if (!parse_type(w, s.result) || !take('(')) return;
     if (!take(')')) {
       do {
-        if (!s.token_set.empty()) return s; // token-value pairs come last
+        if (!s.token_set.empty()) return; // token-value pairs come last
         if (take('@')) {
           s.token_set = word();
-          if (s.token_set.empty()) return s;
+          if (s.token_set.empty()) return;
         } else {
-          if (s.param_count == kMaxParams || s.variadic()) return s;
-          if (!parse_param(s.params[s.param_count])) return s;
+          if (s.param_count == most || (s.param_count && params[s.param_count - 1].variadic)) return;
+          if (!parse_param(params[s.param_count])) return;
           ++s.param_count;
         }
       } while (take(','));
-      if (!take(')')) return s;
+      if (!take(')')) return;
     }
     skip_blanks();
     s.ok = at == text.size();
-    return s;
   }
 };
 
 } // namespace detail
 
 constexpr Signature parse_signature(std::string_view text) {
-  return detail::SignatureParser{text}.parse();
+  Signature s;
+  detail::SignatureParser{text}.parse(s, s.params.data(), kMaxParams);
+  return s;
+}
+/// The same with the parameters in `room`, which must live as long as the signature.
+constexpr Signature parse_signature(std::string_view text, std::span<SignatureParam> room) {
+  Signature s;
+  detail::SignatureParser{text}.parse(s, room.data(), static_cast<int>(room.size()));
+  s.room = room.data();
+  return s;
 }
 
 } // namespace slvm

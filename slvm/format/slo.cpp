@@ -6,13 +6,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <unistd.h>
 
 namespace slvm {
 namespace {
@@ -63,17 +59,23 @@ private:
     return fb::CreateSlot(b_, b_.CreateString(s.name), static_cast<uint8_t>(s.type), s.elements, s.parameter,
                           s.varying, s.stored);
   }
-  flatbuffers::Offset<fb::Import> import(ShadeopId id) {
-    auto name = b_.CreateString(std::string(shadeop(id).name));
-    auto signature = b_.CreateString(std::string(shadeop(id).signature_text));
-    return fb::CreateImport(b_, name, signature);
+  flatbuffers::Offset<fb::Import> import(const Program& p, ShadeopId id) {
+    const ShadeopInfo& info = p.plugins.info(id);
+    auto name = b_.CreateString(std::string(info.name));
+    auto signature = b_.CreateString(std::string(info.signature_text));
+    const PluginShadeop* function = p.plugins.find(id);
+    if (!function) return fb::CreateImport(b_, name, signature);
+    auto at = std::find(libraries_.begin(), libraries_.end(), function->name().library);
+    const auto library = static_cast<uint32_t>(at - libraries_.begin()) + 1;
+    return fb::CreateImport(b_, name, signature, library, static_cast<uint8_t>(function->name().form));
   }
   flatbuffers::Offset<fb::Annotation> annotation(const Annotation& a) {
     auto id = b_.CreateString(a.id);
     auto text = b_.CreateString(a.text);
     return fb::CreateAnnotation(b_, id, text);
   }
-  flatbuffers::Offset<fb::Facts> facts(const Facts& f) {
+  flatbuffers::Offset<fb::Facts> facts(const Program& p) {
+    const Facts& f = p.facts;
     auto messages = strings(f.messages_read);
     auto textures = strings(f.texture_names);
     auto shadeop_names = strings(f.shadeops);
@@ -85,7 +87,7 @@ private:
       call_list.emplace_back(static_cast<uint32_t>(row - called.begin()), c.file, c.line, c.column);
       if (row == called.end()) called.push_back(c.shadeop);
     }
-    auto called_rows = tables(called, [&](ShadeopId id) { return import(id); });
+    auto called_rows = tables(called, [&](ShadeopId id) { return import(p, id); });
     auto calls = b_.CreateVectorOfStructs(call_list);
     return fb::CreateFacts(b_, f.derivatives, f.lights, f.textures, f.rays, messages, textures, shadeop_names,
                            plugins, called_rows, calls);
@@ -96,8 +98,9 @@ private:
     auto source = b_.CreateString(p.source_name);
     auto annotations = tables(p.annotations, [&](const Annotation& a) { return annotation(a); });
     auto params = tables(p.params, [&](const Param& x) { return param(x); });
-    auto fact_table = facts(p.facts);
-    auto imports = tables(p.imports, [&](ShadeopId id) { return import(id); });
+    libraries_ = p.plugins.libraries();
+    auto fact_table = facts(p);
+    auto imports = tables(p.imports, [&](ShadeopId id) { return import(p, id); });
     auto slots = tables(p.slots, [&](const Slot& s) { return slot(s); });
     auto constants = b_.CreateVector(p.constants);
     auto texts = strings(p.strings);
@@ -122,13 +125,15 @@ private:
       return fb::CreateSourceFile(b_, b_.CreateString(s.name), s.hash);
     });
     auto compiler = b_.CreateString(p.compiler);
+    auto libraries = strings(libraries_);
     return fb::CreateShader(b_, static_cast<uint8_t>(p.kind), name, source, p.source_hash, annotations,
                             params, fact_table, imports, slots, constants, texts, string_constants, arrays,
                             p.uniform_planes, p.strip_planes, p.grid_planes, p.mask_depth, code, sections,
-                            files, lines, ir, sources, compiler);
+                            files, lines, ir, sources, compiler, libraries);
   }
 
   flatbuffers::FlatBufferBuilder b_;
+  std::vector<std::string> libraries_; // of the plug-ins called
 };
 
 // ---- FlatBuffer to Program. Numbers that become enums are checked here, everything else in verify_program.
@@ -169,14 +174,28 @@ const char* read_param(const fb::Param& in, Param& out) {
   return nullptr;
 }
 
+// The id of an import, which `plugins` takes up when it is a function of one; nullopt: there is no such.
+std::optional<ShadeopId> read_import(const fb::Import& i, const fb::Shader& in, PluginShadeops& plugins) {
+  if (i.plugin() == 0) {
+    int id = find_shadeop(i.name()->string_view(), i.signature()->string_view());
+    return id < 0 ? std::nullopt : std::optional(static_cast<ShadeopId>(id));
+  }
+  if (!in.plugin_libraries() || i.plugin() > in.plugin_libraries()->size() || i.form() >= kPluginFormCount)
+    return std::nullopt;
+  auto function = PluginShadeop::make({i.name()->str(), i.signature()->str(),
+                                       in.plugin_libraries()->Get(i.plugin() - 1)->str(),
+                                       static_cast<PluginForm>(i.form())});
+  return function ? plugins.add(std::move(function)) : std::nullopt;
+}
+
 // Calls of built-ins that this version does not have are left out: they are for introspection only.
-const char* read_calls(const fb::Facts& in, std::vector<SourceCall>& out) {
+const char* read_calls(const fb::Facts& in, const fb::Shader& shader, Program& p) {
+  std::vector<SourceCall>& out = p.facts.calls;
   if (!in.called() || !in.calls()) return nullptr;
   for (const fb::SourceCall* c : *in.calls()) {
     if (c->row() >= in.called()->size()) return "a call of no known function";
-    const fb::Import& row = *in.called()->Get(c->row());
-    int id = find_shadeop(row.name()->string_view(), row.signature()->string_view());
-    if (id >= 0) out.push_back({static_cast<ShadeopId>(id), c->file(), c->line(), c->column()});
+    std::optional<ShadeopId> id = read_import(*in.called()->Get(c->row()), shader, p.plugins);
+    if (id) out.push_back({*id, c->file(), c->line(), c->column()});
   }
   return nullptr;
 }
@@ -201,7 +220,7 @@ const char* read_shader(const fb::Shader& in, Program& p) {
              read_strings(f.shadeops()),
              read_strings(f.plugins()),
              {}};
-  if (const char* error = read_calls(f, p.facts.calls)) return error;
+  if (const char* error = read_calls(f, in, p)) return error;
   for (const fb::Slot* s : *in.slots()) {
     Slot& slot = p.slots.emplace_back();
     slot = {s->name()->str(), Type::kFloat, s->elements(), s->parameter(), s->varying(), s->stored()};
@@ -291,43 +310,18 @@ Result<Program> read_slo(std::span<const std::byte> bytes) {
   const auto* root = flatbuffers::GetRoot<fb::Shader>(data);
   Program program;
   for (const fb::Import* i : *root->imports()) {
-    int id = find_shadeop(i->name()->string_view(), i->signature()->string_view());
-    if (id < 0)
+    std::optional<ShadeopId> id = read_import(*i, *root, program.plugins);
+    if (!id && i->plugin())
+      return Error{fmt::format("damaged: the plug-in function '{}' has no proper signature or library",
+                               i->name()->string_view())};
+    if (!id)
       return Error{fmt::format("uses the built-in '{}' with signature '{}', which this version does not have",
                                i->name()->string_view(), i->signature()->string_view())};
-    program.imports.push_back(static_cast<ShadeopId>(id));
+    program.imports.push_back(*id);
   }
   if (const char* error = read_shader(*root, program)) return Error{fmt::format("damaged: {}", error)};
   if (std::string error = verify_program(program); !error.empty()) return Error{"damaged: " + error};
   return program;
-}
-
-Result<std::vector<std::byte>> read_file(const std::string& path) {
-  std::error_code ec;
-  auto size = std::filesystem::file_size(path, ec);
-  if (ec) return Error{fmt::format("cannot open '{}': {}", path, ec.message())};
-  if (size > kMaxSloBytes) return Error{fmt::format("'{}' is larger than {} MB", path, kMaxSloBytes >> 20)};
-  std::ifstream in(path, std::ios::binary);
-  std::vector<std::byte> bytes(size);
-  if (!in || !in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-    return Error{fmt::format("cannot read '{}'", path)};
-  return bytes;
-}
-
-Result<bool> write_file(const std::string& path, std::span<const std::byte> bytes) {
-  std::string temporary = fmt::format("{}.tmp{}", path, ::getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  if (!out) return Error{fmt::format("cannot write '{}': {}", path, std::strerror(errno))};
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code ec;
-  if (out) std::filesystem::rename(temporary, path, ec);
-  if (!out || ec) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    return Error{fmt::format("cannot write '{}': {}", path, ec ? ec.message() : "the disk is full or gone")};
-  }
-  return true;
 }
 
 } // namespace slvm

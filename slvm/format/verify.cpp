@@ -34,8 +34,12 @@ public:
       check_array(a);
     for (const LineEntry& l : p_.lines)
       if (l.file >= std::max<size_t>(p_.files.size(), 1)) throw Failure{"a line table entry names no file"};
+    for (ShadeopId id : p_.imports)
+      if (!p_.plugins.knows(id)) throw Failure{"an import of no shadeop"};
     for (const SourceCall& c : p_.facts.calls)
       if (c.file >= std::max<size_t>(p_.files.size(), 1)) throw Failure{"a call in the source names no file"};
+    for (const SourceCall& c : p_.facts.calls)
+      if (!p_.plugins.knows(c.shadeop)) throw Failure{"a call in the source of no shadeop"};
   }
 
 private:
@@ -151,7 +155,8 @@ private:
     if (op == Opcode::k_illuminance && p_.kind == ShaderKind::kLight) fail(at, "a light loop in a light");
     if (is_light_statement(op))
       for (int32_t r : open_)
-        if (is_light_statement(regions_[static_cast<size_t>(r)].open)) fail(at, "light statements do not nest");
+        if (is_light_statement(regions_[static_cast<size_t>(r)].open))
+          fail(at, "light statements do not nest");
     if (op == Opcode::k_gather && !ray_call_before_) fail(at, "a loop over the rays of no call");
     if (emitter)
       for (Global g : {Global::kL, Global::kPs, Global::kNs})
@@ -341,7 +346,7 @@ private:
   void check_call(uint32_t at, uint16_t opcode, std::span<const uint32_t> words) {
     size_t import = opcode - kFirstShadeop;
     if (import >= p_.imports.size()) fail(at, "a call of no import");
-    const ShadeopInfo& info = shadeop(p_.imports[import]);
+    const ShadeopInfo& info = p_.plugins.info(p_.imports[import]);
     if (info.kind == ShadeopKind::kRsl) fail(at, "a call of a function that has no code of its own");
     if (info.kind != ShadeopKind::kKernel && in_strip()) fail(at, "a call for whole grids in a strip block");
     uint32_t level = 0;
@@ -354,7 +359,8 @@ private:
       bool is_array = operand_space(o.word) == Space::kArray;
       if (o.array || is_array) {
         const ArrayInfo& a = check_array(at, o.word);
-        if (components(a.type) != components(o.type) || (!o.array && info.kind == ShadeopKind::kKernel))
+        if (components(a.type) != components(o.type) || (!o.array && info.kind == ShadeopKind::kKernel) ||
+            (o.elements && o.elements != a.elements))
           fail(at, fmt::format("an array that does not fit '{}'", info.name));
         if (o.store) check_writable_array(at, o.word);
       } else {
@@ -362,7 +368,8 @@ private:
         if (o.store && operand_space(o.word) == Space::kSlot && info.kind != ShadeopKind::kKernel)
           fail(at, "a call for whole grids that stores to a variable");
       }
-      if (o.uniform) check_uniform(at, o.word);
+      // Of an array that varies a plug-in that wants a uniform one gets the first point's.
+      if (o.uniform && !(is_array && info.kind == ShadeopKind::kPlugin)) check_uniform(at, o.word);
       if (o.store) uniform_store |= !is_varying(at, o.word);
       // Kernels run for as many lanes as what they store to has. Of an array, arraylength reads no lane at
       // all.

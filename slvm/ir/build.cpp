@@ -8,9 +8,9 @@ namespace slvm::ir {
 
 std::string_view op_name(Op op) {
   constexpr std::string_view kNames[kOpCount] = {
-      "constant",    "slot",       "store",      "call",  "retype", "array",
-      "arrayclear",  "arrayload",  "arraystore", "if",    "loop",   "block",
-      "illuminance", "illuminate", "solar",      "yield", "break",  "continue", "gather"};
+      "constant",  "slot",       "store", "call",     "retype", "array",       "arrayclear",
+      "arrayload", "arraystore", "if",    "loop",     "block",  "illuminance", "illuminate",
+      "solar",     "yield",      "break", "continue", "gather"};
   return kNames[static_cast<int>(op)];
 }
 
@@ -52,7 +52,7 @@ Effect effect_of(const Module& m, const Inst& inst) {
   case Op::kArrayLoad: return Effect::kReads;
   case Op::kSlot: return m.slots[inst.index].stored ? Effect::kReads : Effect::kNone;
   case Op::kCall: {
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    const ShadeopInfo& info = m.called(inst);
     bool stores_array = std::any_of(inst.results.begin(), inst.results.end(),
                                     [&](ValueId r) { return m.values[r].array >= 0; });
     if (info.flags & kEffect || info.kind == ShadeopKind::kPending || stores_array) return Effect::kWrites;

@@ -19,8 +19,8 @@
 //     body ends in a continue or break, a block's in a break
 //   }
 //
-// break and continue name their loop by how many enclosing loops, blocks, illuminance and gather loops lie between.
-// Variables of the language are gone: arrays alone are memory, loaded and stored element by element.
+// break and continue name their loop by how many enclosing loops, blocks, illuminance and gather loops lie
+// between. Variables of the language are gone: arrays alone are memory, loaded and stored element by element.
 #pragma once
 
 #include "slvm/format/program.h"
@@ -38,18 +38,19 @@ using InstId = uint32_t;
 inline constexpr ValueId kNoValue = ~0u;
 
 enum class Op : uint8_t {
-  kConstant,   ///< index: into constants
-  kSlot,       ///< reads external variable `index`. L, Cl and Ol are those of the enclosing light loop
-  kStore,      ///< args: value. Stores to external variable `index`
-  kCall,       ///< calls shadeop `index`; results: what it stores; args: what it reads, and token-value pairs
-  kRetype,     ///< args: value. The same components under another type (point, vector, normal, color)
-  kArray,      ///< the array `index` as an argument of calls; yields no code
-  kArrayClear, ///< fills array `index` with zeros
-  kArrayLoad,  ///< args: subscript
-  kArrayStore, ///< args: subscript, value
-  kIf,         ///< args: condition; two regions
-  kLoop,       ///< args: carried values; one region with as many parameters
-  kBlock,      ///< one region, run once; break leaves it
+  kConstant,    ///< index: into constants
+  kSlot,        ///< reads external variable `index`. L, Cl and Ol are those of the enclosing light loop
+  kStore,       ///< args: value. Stores to external variable `index`
+  kCall,        ///< calls shadeop `index` (Module::called); results: what it stores; args: what it reads, and
+                ///< token-value pairs
+  kRetype,      ///< args: value. The same components under another type (point, vector, normal, color)
+  kArray,       ///< the array `index` as an argument of calls; yields no code
+  kArrayClear,  ///< fills array `index` with zeros
+  kArrayLoad,   ///< args: subscript
+  kArrayStore,  ///< args: subscript, value
+  kIf,          ///< args: condition; two regions
+  kLoop,        ///< args: carried values; one region with as many parameters
+  kBlock,       ///< one region, run once; break leaves it
   kIlluminance, ///< args: category, position, axis, angle, then carried values; index: 1 when axis and angle
                 ///< count
   kIlluminate,  ///< args: from, axis, angle, then the results' values for lanes the light does not reach;
@@ -91,8 +92,8 @@ struct Inst {
   std::vector<Region> regions;
 };
 
-/// How many args stand before carried values: 4 for illuminance, 3 illuminate, 2 solar, what its row reads for
-/// gather, else 0.
+/// How many args stand before carried values: 4 for illuminance, 3 illuminate, 2 solar, what its row reads
+/// for gather, else 0.
 inline uint32_t fixed_args(const Inst& inst) {
   switch (inst.op) {
   case Op::kIlluminance: return 4;
@@ -136,8 +137,11 @@ struct Module {
   Region body;                    ///< ends in a yield without arguments
   std::vector<Region> inits;      ///< defaults of parameters: each yields the value (arrays: the elements)
   std::vector<std::string> files; ///< by the FileId of source ranges
+  PluginShadeops plugins;         ///< those that calls may name
 
   Type type(ValueId v) const { return values[v].type; }
+  /// What a call calls.
+  const ShadeopInfo& called(const Inst& call) const { return plugins.info(call.index); }
   bool varying(ValueId v) const { return values[v].varying; }
 };
 

@@ -58,8 +58,8 @@ private:
     case Op::kStore: return " " + m_.slots[inst.index].name;
     case Op::kGather:
       // Its own name says which row it is, except for traverse.
-      return shadeop(static_cast<ShadeopId>(inst.index)).name == "traverse" ? " traverse" : "";
-    case Op::kCall: return fmt::format(" {}", shadeop(static_cast<ShadeopId>(inst.index)).name);
+      return m_.called(inst).name == "traverse" ? " traverse" : "";
+    case Op::kCall: return fmt::format(" {}", m_.called(inst).name);
     case Op::kArray:
     case Op::kArrayClear:
     case Op::kArrayLoad:

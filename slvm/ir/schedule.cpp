@@ -107,6 +107,7 @@ private:
 
   uint16_t import(uint32_t shadeop_id) {
     auto id = static_cast<ShadeopId>(shadeop_id);
+    if (m_.plugins.find(id)) id = *p_.plugins.add(m_.plugins.list()[id - kFirstPluginShadeop]);
     auto it = std::find(p_.imports.begin(), p_.imports.end(), id);
     auto index = static_cast<uint16_t>(it - p_.imports.begin());
     if (it == p_.imports.end()) p_.imports.push_back(id);
@@ -261,7 +262,7 @@ private:
     case Op::kGather: return false;
     case Op::kBreak:
     case Op::kContinue: return inst.index < depth;
-    case Op::kCall: return shadeop(static_cast<ShadeopId>(inst.index)).kind == ShadeopKind::kKernel;
+    case Op::kCall: return m_.called(inst).kind == ShadeopKind::kKernel;
     // Stores to what all strips share would be done once for each strip.
     case Op::kStore: return m_.slots[inst.index].varying;
     case Op::kArrayStore:
@@ -311,7 +312,7 @@ private:
   bool can_overtake(InstId id) const {
     const Inst& inst = m_.insts[id];
     if (inst.op != Op::kCall || !inst.regions.empty() || !args_located(id)) return false;
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    const ShadeopInfo& info = m_.called(inst);
     if (info.kind != ShadeopKind::kGrid || info.flags & kDerivative || effect_of(m_, inst) == Effect::kWrites)
       return false;
     return std::none_of(pending_.begin(), pending_.end(), [&](const InstAction& a) {
@@ -410,7 +411,7 @@ private:
   }
 
   void emit_call(const Inst& inst) {
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    const ShadeopInfo& info = m_.called(inst);
     const std::span<const ValueId> args(inst.args.data(),
                                         inst.op == Op::kGather ? fixed_args(inst) : inst.args.size());
     uint32_t level = 0;
@@ -420,7 +421,7 @@ private:
     const Signature& signature = info.signature;
     size_t positional = 0; // arguments before token-value pairs
     for (int i = 0; i < signature.param_count; ++i)
-      positional += signature.params[static_cast<size_t>(i)].input;
+      positional += signature.param(i).input;
     int param = 0;
     for (size_t i = 0; i < args.size(); ++i, ++param) {
       while (param < signature.param_count && !signature.param(param).input)
@@ -446,8 +447,7 @@ private:
     };
     if (signature.result != Type::kVoid) store(false);
     for (int i = 0; i < signature.param_count; ++i)
-      if (signature.params[static_cast<size_t>(i)].output)
-        store(signature.params[static_cast<size_t>(i)].any);
+      if (signature.param(i).output) store(signature.param(i).any);
     uint32_t token_outputs = 0;
     for (; info.flags & kTokenOut && result < inst.results.size(); ++token_outputs)
       store(true);

@@ -192,19 +192,27 @@ private:
     a_.text(c.text);
   }
 
-  /// The shadeops called; instructions name them by their place in this list.
+  /// The shadeops called; instructions name them by their place in this list. A function of a plug-in has an
+  /// empty name in front.
   void imports() {
     if constexpr (!A::kReads)
       for (const Inst& inst : m_.insts)
-        if (names_shadeop(inst.op) && std::find(imports_.begin(), imports_.end(), inst.index) == imports_.end())
+        if (names_shadeop(inst.op) &&
+            std::find(imports_.begin(), imports_.end(), inst.index) == imports_.end())
           imports_.push_back(inst.index);
     a_.list(imports_, [&](uint32_t& id) {
       std::string name, signature;
       if constexpr (!A::kReads) {
+        if (const PluginShadeop* function = m_.plugins.find(static_cast<ShadeopId>(id))) {
+          a_.text(name);
+          return plugin(id, function->name());
+        }
         name = shadeop(static_cast<ShadeopId>(id)).name;
         signature = shadeop(static_cast<ShadeopId>(id)).signature_text;
       }
       a_.text(name);
+      if constexpr (A::kReads)
+        if (name.empty() && !a_.failed()) return plugin(id, {});
       a_.text(signature);
       if constexpr (A::kReads) {
         int found = find_shadeop(name, signature);
@@ -214,6 +222,20 @@ private:
         id = static_cast<uint32_t>(std::max(found, 0));
       }
     });
+  }
+
+  void plugin(uint32_t& id, PluginFunctionName name) {
+    a_.text(name.function);
+    a_.text(name.signature);
+    a_.text(name.library);
+    enumeration(name.form, kPluginFormCount);
+    if constexpr (A::kReads) {
+      auto function = PluginShadeop::make(std::move(name));
+      std::optional<ShadeopId> added;
+      if (function) added = m_.plugins.add(std::move(function));
+      if (!added && !a_.failed()) a_.fail("a function of a plug-in without a proper signature");
+      id = added.value_or(ShadeopId{0});
+    }
   }
 
   void region(Region& r, uint32_t depth) {
@@ -306,6 +328,7 @@ public:
     to_.arrays = from_.arrays;
     to_.constants = from_.constants;
     to_.files = from_.files;
+    to_.plugins = from_.plugins;
     to_.body = region(from_.body);
     for (const Region& r : from_.inits)
       to_.inits.push_back(region(r));

@@ -288,8 +288,8 @@ private:
   }
 
   const ShadeopInfo& row_of(const Inst& inst) const {
-    require(inst.index < shadeops().size(), "a call of no shadeop");
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    require(m_.plugins.knows(inst.index), "a call of no shadeop");
+    const ShadeopInfo& info = m_.called(inst);
     require(info.kind != ShadeopKind::kRsl, "a call of a function that has no code of its own");
     return info;
   }
@@ -321,6 +321,7 @@ private:
     if (is_array(v)) { // only as what it is
       auto array = static_cast<size_t>(m_.values[v].array);
       if (array >= m_.arrays.size() || m_.arrays[array].type != m_.values[v].type) return false;
+      if (p.elements && p.elements != m_.arrays[array].elements) return false;
     }
     return p.any ? m_.type(v) != Type::kVoid : same_planes(m_.type(v), p.type);
   }
@@ -384,7 +385,8 @@ private:
 
   void check_gather(const Inst& inst) {
     const ShadeopInfo& info = row_of(inst);
-    require(is_body_ && (info.name == "gather" || info.name == "traverse"), "a loop over the rays of no call");
+    require(is_body_ && (info.name == "gather" || info.name == "traverse"),
+            "a loop over the rays of no call");
     require(inst.args.size() >= inst.results.size(), "wrong number of arguments, results or regions");
     check_read(inst, fixed_args(inst));
     carried(inst);

@@ -182,13 +182,15 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
   EXPECT_THAT(messages_of("Frobnicate 1 Frobnicate 2"), HasSubstr("warning: unknown request Frobnicate"));
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
   EXPECT_THAT(messages_of("Attribute \"trace\" \"bias\" .1"),
-              HasSubstr("Attribute \"trace\" has no effect yet"));
+              HasSubstr("Attribute \"trace\" has no effect: no rays are traced"));
   EXPECT_THAT(messages_of("Option \"bucket\" \"order\" \"circle\""),
-              HasSubstr("Option \"bucket\" has no effect"));
+              HasSubstr("Option \"bucket\" \"order\" has no effect: buckets are rendered in rows"));
   EXPECT_THAT(messages_of("Option \"statistics\" \"filename\" \"a\""),
-              HasSubstr("Option \"statistics\" \"filename\" has no effect; slrender --statisticsfile"));
-  EXPECT_THAT(messages_of("Attribute \"cull\" \"int x\" 1"),
-              HasSubstr("Attribute \"cull\" \"x\" has no effect; known are hidden and backfacing"));
+              HasSubstr("Option \"statistics\" \"filename\" has no effect: slrender --statisticsfile"));
+  EXPECT_THAT(
+      messages_of("Attribute \"cull\" \"int x\" 1"),
+      HasSubstr("Attribute \"cull\" \"x\" is not known and has no effect (shaders can read its value); "
+                "known are hidden, backfacing"));
   EXPECT_THAT(messages_of("Hider \"photon\""), HasSubstr("Hider \"photon\" is not supported yet"));
 }
 

@@ -66,10 +66,10 @@ size_t CallTokens::choice(std::string_view token, std::initializer_list<std::str
   if (given.empty()) return 0;
   const auto* it = std::find(names.begin(), names.end(), given);
   if (it != names.end()) return static_cast<size_t>(it - names.begin());
-  call_.run.report(call_.code, MessageSeverity::kWarning,
-                   fmt::format("{}: \"{}\" is {}, not \"{}\"", call_.info.name, token,
-                               fmt::join(names, " or "), given),
-                   mask_count(call_.run.mask.current(), call_.run.points));
+  call_.run.report(
+      call_.code, MessageSeverity::kWarning,
+      fmt::format("{}: \"{}\" is {}, not \"{}\"", call_.info.name, token, fmt::join(names, " or "), given),
+      mask_count(call_.run.mask.current(), call_.run.points));
   return 0;
 }
 

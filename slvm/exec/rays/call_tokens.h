@@ -1,5 +1,5 @@
-// The optional arguments of a call, by name. What they mean is the same for everything that shoots rays: this is where
-// it is read.
+// The optional arguments of a call, by name. What they mean is the same for everything that shoots rays: this
+// is where it is read.
 #pragma once
 
 #include "slvm/exec/grid_ops.h"

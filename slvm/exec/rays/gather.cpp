@@ -75,16 +75,19 @@ void GatherLoop::read_spec(const GridCall& call, const CallTokens& tokens, RaySp
 void GatherLoop::read_values(const GridCall& call, const CallTokens& tokens) {
   using Of = RayValue::Of;
   using From = RayOutput::From;
-  static constexpr std::pair<std::string_view, Of> kOwn[] = {
-      {"ray:origin", Of::kOrigin},           {"ray:direction", Of::kDirection},
-      {"ray:length", Of::kLength},           {"effectivebias", Of::kBias},
-      {"sample:randompair", Of::kRandomPair}, {"environment:color", Of::kMapColour},
-      {"environment:direction", Of::kMapDirection}, {"environment:solidangle", Of::kMapSolidAngle}};
+  static constexpr std::pair<std::string_view, Of> kOwn[] = {{"ray:origin", Of::kOrigin},
+                                                             {"ray:direction", Of::kDirection},
+                                                             {"ray:length", Of::kLength},
+                                                             {"effectivebias", Of::kBias},
+                                                             {"sample:randompair", Of::kRandomPair},
+                                                             {"environment:color", Of::kMapColour},
+                                                             {"environment:direction", Of::kMapDirection},
+                                                             {"environment:solidangle", Of::kMapSolidAngle}};
   static constexpr std::pair<std::string_view, From> kAtHits[] = {
-      {"surface:", From::kSurface},       {"displacement:", From::kDisplacement},
-      {"volume:", From::kVolume},         {"atmosphere:", From::kAtmosphere},
-      {"interior:", From::kInterior},     {"exterior:", From::kExterior},
-      {"light:", From::kLight},           {"primitive:", From::kPrimitive},
+      {"surface:", From::kSurface},    {"displacement:", From::kDisplacement},
+      {"volume:", From::kVolume},      {"atmosphere:", From::kAtmosphere},
+      {"interior:", From::kInterior},  {"exterior:", From::kExterior},
+      {"light:", From::kLight},        {"primitive:", From::kPrimitive},
       {"attribute:", From::kAttribute}};
   values_.clear();
   tokens.for_each([&](std::string_view name, const GridOperand& o) {
@@ -240,8 +243,7 @@ void GatherLoop::trace(ShaderRun& run, RayCursor* cursors) {
   std::vector<RayOutput> outputs;
   for (RayValue& v : values_) {
     if (v.of != RayValue::Of::kHit) continue;
-    const size_t planes =
-        static_cast<size_t>(components(v.output.type)) * std::max(v.output.elements, 1u);
+    const size_t planes = static_cast<size_t>(components(v.output.type)) * std::max(v.output.elements, 1u);
     v.data.resize(planes * count);
     v.found.assign(count, 0);
     v.output.data = v.data.data();
@@ -252,6 +254,9 @@ void GatherLoop::trace(ShaderRun& run, RayCursor* cursors) {
   RayServices* services = ray_services(run, code_, source_.size());
   if (services && count)
     services->trace(run.shading_state(), options_, rays_.batch(), outputs, distance_.data(), cursors);
+  for (const RayOutput& o : outputs) // whatever is said of rays that hit nothing
+    for (size_t r = 0; r < count; ++r)
+      o.found[r] &= static_cast<uint8_t>(hits_something(distance_[r]));
 }
 
 // One surface of each ray. Points whose first look finds nothing take the else block; others end without.

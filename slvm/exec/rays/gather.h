@@ -1,21 +1,30 @@
-// The loops of gather() and traverse(). The call before a loop says which rays there are (GatherLoop::begin), each round
-// is one ray of every point that still has one, and what rays bring is read by gatherhit() and gathered().
+// The loops of gather() and traverse(). The call before a loop says which rays there are (GatherLoop::begin),
+// each round is one ray of every point that still has one, and what rays bring is read by gatherhit() and
+// gathered().
 //
-// Where no lane can leave the loop early, all its rays are traced ahead, in batches of kRaysAtOnce; else each round
-// traces its own, so that no ray is shot that nobody sees.
+// Where no lane can leave the loop early, all its rays are traced ahead, in batches of kRaysAtOnce; else each
+// round traces its own, so that no ray is shot that nobody sees.
 #pragma once
 
 #include "slvm/exec/rays/ray_buffer.h"
 
 namespace slvm {
 
-inline constexpr size_t kRaysAtOnce = 1 << 16;
+/// Enough for hits to be shaded together, few enough to stay in the cache.
+inline constexpr size_t kRaysAtOnce = 1 << 14;
 
 /// A variable that the rays of a loop set.
 struct RayValue {
   enum class Of : uint8_t {
     kHit, ///< what the renderer finds there
-    kOrigin, kDirection, kLength, kBias, kRandomPair, kMapColour, kMapDirection, kMapSolidAngle
+    kOrigin,
+    kDirection,
+    kLength,
+    kBias,
+    kRandomPair,
+    kMapColour,
+    kMapDirection,
+    kMapSolidAngle
   };
   Of of = Of::kHit;
   uint32_t token = 0; ///< its name as a string of the machine
@@ -52,6 +61,7 @@ private:
   void draw_from_map(ShaderRun& run);
   void trace(ShaderRun& run, RayCursor* cursors);
   void enter_round(const ShaderRun& run, size_t first, size_t last, bool unshot_miss);
+  void store_found(const RayValue& value, const Operand& out, size_t planes) const;
   std::vector<uint32_t> places_in(const MaskWord* in_loop) const;
 
   Form form_ = Form::kGather;

@@ -10,7 +10,8 @@ namespace {
 
 /// f(ray, to): stores a ray's value; the variable keeps what it has where it returns false.
 template <class F>
-void store_rays(const RayBuffer& rays, size_t first, size_t last, const Operand& out, size_t planes, F&& value) {
+void store_rays(const RayBuffer& rays, size_t first, size_t last, const Operand& out, size_t planes,
+                F&& value) {
   float x[16];
   for (size_t r = first; r < last; ++r)
     for (size_t i = 0; i < planes; i += std::size(x)) {
@@ -34,6 +35,27 @@ void keep_old(const ShaderRun& run, const Operand& out, const Operand& before, s
 }
 
 } // namespace
+
+void GatherLoop::store_found(const RayValue& value, const Operand& out, size_t planes) const {
+  size_t last = last_;
+  if (!out.step) { // that of the first point
+    const auto begin = value.found.begin();
+    last = static_cast<size_t>(std::find(begin + static_cast<std::ptrdiff_t>(first_),
+                                         begin + static_cast<std::ptrdiff_t>(last_), 1) -
+                               begin);
+    for (size_t i = 0; i < planes && last < last_; ++i)
+      put(out, i, 0, value.data[i * rays_.size() + last]);
+    return;
+  }
+  const uint8_t* found = value.found.data();
+  const uint32_t* points = rays_.points();
+  for (size_t i = 0; i < planes; ++i) {
+    const float* from = value.data.data() + i * rays_.size();
+    float* to = out.plane(i);
+    for (size_t r = first_; r < last; ++r)
+      if (found[r]) to[points[r]] = from[r];
+  }
+}
 
 void GatherLoop::store_value(const GridCall& call) const {
   const GridOperand &out = call.operands[0], &name = call.operands[1], &before = call.operands[2];
@@ -62,12 +84,7 @@ void GatherLoop::store_value(const GridCall& call) const {
   };
   switch (v->of) {
   case RayValue::Of::kHit:
-    if (v->found.size() == rays_.size())
-      store([&](size_t r, size_t from, size_t count, float* x) {
-        for (size_t k = 0; k < count; ++k)
-          x[k] = v->data[(from + k) * rays_.size() + r];
-        return v->found[r] && hit(r);
-      });
+    if (v->found.size() == rays_.size()) store_found(*v, out.planes, planes);
     return;
   case RayValue::Of::kOrigin: return triple([&](size_t c, size_t r) { return rays_.origin(c, r); });
   case RayValue::Of::kDirection:
@@ -83,7 +100,9 @@ void GatherLoop::store_value(const GridCall& call) const {
       return true;
     });
   case RayValue::Of::kRandomPair:
-    return triple([&](size_t c, size_t r) { return c == 0 ? rays_.turn(r) : c == 1 ? rays_.radius(r) : 0.0f; });
+    return triple([&](size_t c, size_t r) {
+      return c == 0 ? rays_.turn(r) : c == 1 ? rays_.radius(r) : 0.0f;
+    });
   case RayValue::Of::kMapColour:
     if (from_map_) triple([&](size_t c, size_t r) { return colour_[c][r]; });
     return;

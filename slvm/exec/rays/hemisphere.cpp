@@ -1,4 +1,5 @@
-// occlusion() and indirectdiffuse(): the renderer looks round for all points at once. And the diffuse light of a map.
+// occlusion() and indirectdiffuse(): the renderer looks round for all points at once. And the diffuse light
+// of a map.
 #include "slvm/exec/differences.h"
 #include "slvm/exec/rays/ray_buffer.h"
 #include "slvm/exec/rays/shooting.h"
@@ -207,8 +208,7 @@ private:
 /// Lookups of a map for one ray of every point, each over the ray's part of the half space.
 class DiffuseLookup {
 public:
-  DiffuseLookup(const ShaderRun& run, std::string_view map, TextureServices& textures)
-      : textures_(textures) {
+  DiffuseLookup(const ShaderRun& run, std::string_view map, TextureServices& textures) : textures_(textures) {
     lookup_.map = map;
     lookup_.channels = 3;
     lookup_.points = run.points;
@@ -264,7 +264,8 @@ void indirect_diffuse(const GridCall& call) {
   hemisphere.store();
 }
 
-// Operands: result, map, direction. The mean of the map in the half space about the direction, by the cosine to it.
+// Operands: result, map, direction. The mean of the map in the half space about the direction, by the cosine
+// to it.
 void environment_diffuse(const GridCall& call) {
   constexpr float kSamples = 64;
   const ShaderRun& run = call.run;
@@ -301,8 +302,8 @@ void environment_diffuse(const GridCall& call) {
     }
   }
   if (!problem.empty())
-    run.report(call.code, MessageSeverity::kWarning, fmt::format("{} \"{}\": {}", call.info.name, map, problem),
-               source.size());
+    run.report(call.code, MessageSeverity::kWarning,
+               fmt::format("{} \"{}\": {}", call.info.name, map, problem), source.size());
 }
 
 } // namespace grid_ops

@@ -10,7 +10,8 @@
 namespace slvm {
 namespace {
 
-/// Sine and cosine of a part of a turn, from 0 to 1, with an error below 4e-7: Taylor's polynomials of an eighth.
+/// Sine and cosine of a part of a turn, from 0 to 1, with an error below 4e-7: Taylor's polynomials of an
+/// eighth.
 inline void sine_and_cosine(float turn, float& sine, float& cosine) {
   const float quarters = turn * 4;
   const int quarter = static_cast<int>(quarters + 0.5f);
@@ -44,21 +45,47 @@ void RayBuffer::clear() {
   each_array([](PointArray& a) { a.clear(); });
 }
 
+namespace {
+
+/// Whether these places are all of the source's, in order, and each shoots this sample.
+bool is_all(const RaySource& source, std::span<const uint32_t> places, uint32_t sample) {
+  if (places.size() != source.size()) return false;
+  for (size_t i = 0; i < places.size(); ++i)
+    if (places[i] != i || source.samples[i] <= sample || !source.shoots[i]) return false;
+  return true;
+}
+
+/// A new part of an array that the rays from `first` on fill.
+template <class T> T* grow(std::vector<T>& a, size_t first, size_t count) {
+  a.resize(first + count);
+  return a.data() + first;
+}
+
+} // namespace
+
 void RayBuffer::add(const RaySource& source, std::span<const uint32_t> places, uint32_t sample) {
   const size_t first = size();
+  if (is_all(source, places, sample)) {
+    place_.insert(place_.end(), places.begin(), places.end());
+    fill(source, first, sample, [](size_t r) { return r; });
+    return;
+  }
   for (uint32_t i : places)
     if (source.samples[i] > sample && source.shoots[i]) place_.push_back(i);
-  const size_t end = place_.size();
-  point_.resize(end);
-  sample_.resize(end, sample);
-  auto copy = [&](const PointArray& from, PointArray& to) {
+  fill(source, first, sample, [place = place_.data() + first](size_t r) { return size_t{place[r]}; });
+}
+
+// `at`: the place in the source of the r-th new ray.
+template <class At> void RayBuffer::fill(const RaySource& source, size_t first, uint32_t sample, At at) {
+  const size_t count = place_.size() - first;
+  auto copy = [&](const auto& from, auto& to) {
     if (from.empty()) return;
-    to.resize(end);
-    for (size_t r = first; r < end; ++r)
-      to[r] = from[place_[r]];
+    auto* out = grow(to, first, count);
+    for (size_t r = 0; r < count; ++r)
+      out[r] = from[at(r)];
   };
-  for (size_t r = first; r < end; ++r)
-    point_[r] = source.point[place_[r]];
+  sample_.resize(first + count, sample);
+  copy(source.point, point_);
   copy(source.bias, bias_);
   copy(source.max_distance, max_distance_);
   for (size_t c = 0; c < 3; ++c) {
@@ -66,91 +93,108 @@ void RayBuffer::add(const RaySource& source, std::span<const uint32_t> places, u
     copy(source.weight[c], weight_[c]);
   }
   const SobolSample numbers(sample);
-  turn_.resize(end);
-  radius_.resize(end);
-  for (size_t r = first; r < end; ++r) {
-    const uint32_t seed = source.seed[place_[r]];
-    turn_[r] = scrambled(numbers.bits[static_cast<size_t>(SampleUse::kTurn)],
-                         scramble_seed(seed, SampleUse::kTurn));
-    radius_[r] = scrambled(numbers.bits[static_cast<size_t>(SampleUse::kRadius)],
-                           scramble_seed(seed, SampleUse::kRadius));
+  draw(source, numbers, SampleUse::kTurn, grow(turn_, first, count), count, at);
+  draw(source, numbers, SampleUse::kRadius, grow(radius_, first, count), count, at);
+  aim(source, first, count, at);
+  if (!source.base.empty()) spread_origins(source, numbers, first, count, at);
+  if (!source.differentials) return;
+  for (size_t c = 0; c < 3; ++c) {
+    copy(source.ray_origin_u[c], origin_du_[c]);
+    copy(source.ray_origin_v[c], origin_dv_[c]);
   }
-  aim(source, first);
-  if (!source.base.empty()) spread_origins(source, first, sample);
-  if (source.differentials) add_differentials(source, first);
+  widen(source, first, count, at);
 }
 
-// A point on the sphere's part by equal areas (Archimedes: z is uniform), or on the disk below it (by Malley's
-// method, as dense as the cosine).
-void RayBuffer::aim(const RaySource& source, size_t first) {
-  const size_t end = size();
-  for (PointArray& component : direction_)
-    component.resize(end);
-  if (source.cosine_of_angle.empty()) {
-    for (size_t c = 0; c < 3; ++c)
-      for (size_t r = first; r < end; ++r)
-        direction_[c][r] = source.axis[c][place_[r]];
-    return;
+template <class At>
+void RayBuffer::draw(const RaySource& source, const SobolSample& numbers, SampleUse use, float* out,
+                     size_t count, At at) {
+  const uint32_t bits = numbers.bits[static_cast<size_t>(use)];
+  const uint32_t* seeds = source.seeds[static_cast<size_t>(use)].data();
+  for (size_t r = 0; r < count; ++r)
+    out[r] = scrambled(bits, seeds[at(r)]);
+}
+
+// A point on the sphere's part by equal areas (Archimedes: z is uniform), or on the disk below it (by
+// Malley's method, as dense as the cosine).
+template <class At> void RayBuffer::aim(const RaySource& source, size_t first, size_t count, At at) {
+  float* out[3];
+  for (size_t c = 0; c < 3; ++c) {
+    out[c] = grow(direction_[c], first, count);
+    const float* axis = source.axis[c].data();
+    for (size_t r = 0; r < count && source.cosine_of_angle.empty(); ++r)
+      out[c][r] = axis[at(r)];
   }
-  for (size_t r = first; r < end; ++r) {
-    const size_t i = place_[r];
-    float sine, cosine;
-    sine_and_cosine(turn_[r], sine, cosine);
-    float across, along;
+  if (source.cosine_of_angle.empty()) return;
+  const float *turn = turn_.data() + first, *radius = radius_.data() + first;
+  constexpr size_t kBlock = 256; // stays in the nearest cache between the loops
+  float x[kBlock], y[kBlock], z[kBlock];
+  for (size_t from = 0; from < count; from += kBlock) {
+    const size_t n = std::min(kBlock, count - from);
     if (source.cosine) {
-      const float squared = radius_[r] * source.squared_sine[i];
-      across = std::sqrt(squared);
-      along = std::sqrt(1 - squared);
+      const float* squared_sine = source.squared_sine.data();
+      for (size_t k = 0; k < n; ++k) {
+        const float squared = radius[from + k] * squared_sine[at(from + k)];
+        x[k] = std::sqrt(squared);
+        z[k] = std::sqrt(1 - squared);
+      }
     } else {
-      along = 1 - radius_[r] * (1 - source.cosine_of_angle[i]);
-      across = std::sqrt(std::max(0.0f, (1 - along) * (1 + along)));
+      const float* edge = source.cosine_of_angle.data();
+      for (size_t k = 0; k < n; ++k) {
+        const float along = 1 - radius[from + k] * (1 - edge[at(from + k)]);
+        const float squared = (1 - along) * (1 + along);
+        x[k] = std::sqrt(squared > 0 ? squared : 0.0f);
+        z[k] = along;
+      }
     }
-    const float x = across * cosine, y = across * sine;
-    for (size_t c = 0; c < 3; ++c)
-      direction_[c][r] = x * source.tangent[c][i] + y * source.bitangent[c][i] + along * source.axis[c][i];
-  }
-}
-
-void RayBuffer::spread_origins(const RaySource& source, size_t first, uint32_t sample) {
-  const SobolSample numbers(sample);
-  for (size_t r = first; r < size(); ++r) {
-    const size_t i = place_[r];
-    auto offset = [&](SampleUse use) {
-      return source.base[i] *
-             (scrambled(numbers.bits[static_cast<size_t>(use)], scramble_seed(source.seed[i], use)) - 0.5f);
-    };
-    const float u = offset(SampleUse::kBaseU), v = offset(SampleUse::kBaseV);
-    for (size_t c = 0; c < 3; ++c)
-      origin_[c][r] += u * source.origin_u[c][i] + v * source.origin_v[c][i];
-  }
-}
-
-// From one point to the next (Igehy 1999, section 3.1.1), wider by the sample's part of the cone; narrower where
-// several samples share the element.
-void RayBuffer::add_differentials(const RaySource& source, size_t first) {
-  for (PointTriples* t : {&origin_du_, &origin_dv_, &direction_du_, &direction_dv_})
-    for (PointArray& component : *t)
-      component.resize(size());
-  for (size_t r = first; r < size(); ++r) {
-    const size_t i = place_[r];
-    const float share = 1 / std::sqrt(static_cast<float>(source.samples[i]));
-    const float part = source.base.empty() ? 1.0f : 1 - source.base[i] * (1 - share);
-    const float spread = source.spread.empty() ? 0.0f : source.spread[i];
-    float z[3] = {direction_[0][r], direction_[1][r], direction_[2][r]}, across[2][3];
-    if (spread > 0) directions_across(z, across[0], across[1]);
-    float turn[2] = {};
+    for (size_t k = 0; k < n; ++k) {
+      float sine, cosine;
+      sine_and_cosine(turn[from + k], sine, cosine);
+      y[k] = x[k] * sine;
+      x[k] *= cosine;
+    }
     for (size_t c = 0; c < 3; ++c) {
-      origin_du_[c][r] = part * source.origin_u[c][i];
-      origin_dv_[c][r] = part * source.origin_v[c][i];
-      turn[0] += source.axis_u[c][i] * source.axis_u[c][i];
-      turn[1] += source.axis_v[c][i] * source.axis_v[c][i];
+      const float *t = source.tangent[c].data(), *b = source.bitangent[c].data(), *a = source.axis[c].data();
+      for (size_t k = 0; k < n; ++k) {
+        const size_t i = at(from + k);
+        out[c][from + k] = x[k] * t[i] + y[k] * b[i] + z[k] * a[i];
+      }
     }
-    for (size_t k = 0; k < 2; ++k) {
-      const PointTriples& own = k == 0 ? source.axis_u : source.axis_v;
-      PointTriples& out = k == 0 ? direction_du_ : direction_dv_;
-      const float wide = std::sqrt(turn[k] + spread * spread), narrow = std::sqrt(turn[k]);
-      for (size_t c = 0; c < 3; ++c)
-        out[c][r] = narrow > 1e-3f * wide ? own[c][i] * (wide / narrow) : spread > 0 ? across[k][c] * wide : 0.0f;
+  }
+}
+
+template <class At>
+void RayBuffer::spread_origins(const RaySource& source, const SobolSample& numbers, size_t first,
+                               size_t count, At at) {
+  std::vector<float> offset(count);
+  for (SampleUse use : {SampleUse::kBaseU, SampleUse::kBaseV}) {
+    draw(source, numbers, use, offset.data(), count, at);
+    for (size_t r = 0; r < count; ++r)
+      offset[r] = source.base[at(r)] * (offset[r] - 0.5f);
+    const PointTriples& side = use == SampleUse::kBaseU ? source.origin_u : source.origin_v;
+    for (size_t c = 0; c < 3; ++c) {
+      float* out = origin_[c].data() + first;
+      const float* along = side[c].data();
+      for (size_t r = 0; r < count; ++r)
+        out[r] += offset[r] * along[at(r)];
+    }
+  }
+}
+
+template <class At> void RayBuffer::widen(const RaySource& source, size_t first, size_t count, At at) {
+  for (size_t k = 0; k < 2; ++k)
+    for (size_t c = 0; c < 3; ++c) {
+      float* out = grow((k == 0 ? direction_du_ : direction_dv_)[c], first, count);
+      const float* turns = (k == 0 ? source.axis_u : source.axis_v)[c].data();
+      const float* scale = source.turn_scale[k].data();
+      for (size_t r = 0; r < count; ++r)
+        out[r] = scale[at(r)] * turns[at(r)];
+    }
+  for (size_t r = 0; r < count && source.any_across; ++r) {
+    float z[3] = {direction_[0][first + r], direction_[1][first + r], direction_[2][first + r]}, x[3], y[3];
+    directions_across(z, x, y);
+    for (size_t c = 0; c < 3; ++c) {
+      direction_du_[c][first + r] += source.across[0][at(r)] * x[c];
+      direction_dv_[c][first + r] += source.across[1][at(r)] * y[c];
     }
   }
 }

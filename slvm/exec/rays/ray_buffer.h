@@ -1,4 +1,5 @@
-// Rays as a batch: those of some points, one sample after the other, with the memory for what they bring back.
+// Rays as a batch: those of some points, one sample after the other, with the memory for what they bring
+// back.
 #pragma once
 
 #include "slvm/exec/rays/ray_source.h"
@@ -10,7 +11,7 @@ namespace slvm {
 class RayBuffer {
 public:
   void clear();
-  size_t size() const { return point_.size(); }
+  size_t size() const { return place_.size(); }
 
   /// Adds sample `sample` of those of these points of the source (by their places there) that have so many.
   void add(const RaySource& source, std::span<const uint32_t> places, uint32_t sample);
@@ -19,6 +20,7 @@ public:
 
   /// Of ray r.
   uint32_t point(size_t r) const { return point_[r]; } ///< on the grid
+  const uint32_t* points() const { return point_.data(); }
   uint32_t place(size_t r) const { return place_[r]; } ///< in the source
   float origin(size_t component, size_t r) const { return origin_[component][r]; }
   float direction(size_t component, size_t r) const { return direction_[component][r]; }
@@ -39,9 +41,14 @@ public:
   }
 
 private:
-  void aim(const RaySource& source, size_t first);
-  void spread_origins(const RaySource& source, size_t first, uint32_t sample);
-  void add_differentials(const RaySource& source, size_t first);
+  template <class At> void fill(const RaySource& source, size_t first, uint32_t sample, At at);
+  template <class At>
+  static void draw(const RaySource& source, const SobolSample& numbers, SampleUse use, float* out,
+                   size_t count, At at);
+  template <class At> void aim(const RaySource& source, size_t first, size_t count, At at);
+  template <class At>
+  void spread_origins(const RaySource& source, const SobolSample& numbers, size_t first, size_t count, At at);
+  template <class At> void widen(const RaySource& source, size_t first, size_t count, At at);
   void retain(const std::vector<uint32_t>& kept);
   template <class F> void each_array(F&& f);
 

@@ -12,8 +12,9 @@ namespace slvm {
 template <class F>
 void for_each_batch(const RaySource& source, std::span<const uint32_t> places, uint32_t first, uint32_t last,
                     F&& f) {
-  constexpr size_t kMostRays = 1 << 16;
-  const auto at_once = static_cast<uint32_t>(std::max<size_t>(kMostRays / std::max<size_t>(places.size(), 1), 1));
+  constexpr size_t kMostRays = 1 << 14; // stay in the cache
+  const auto at_once =
+      static_cast<uint32_t>(std::max<size_t>(kMostRays / std::max<size_t>(places.size(), 1), 1));
   RayBuffer rays;
   for (uint32_t sample = first; sample < last; sample += at_once) {
     rays.clear();
@@ -36,7 +37,9 @@ public:
   RayMeans(const RaySource& source, size_t components)
       : source_(source), sums_(components, std::vector<double>(source.size())) {}
 
-  void add(size_t place, size_t component, float value) { sums_[component][place] += static_cast<double>(value); }
+  void add(size_t place, size_t component, float value) {
+    sums_[component][place] += static_cast<double>(value);
+  }
   double sum(size_t place, size_t component) const { return sums_[component][place]; }
   /// Over all samples of the point.
   float mean(size_t place, size_t component) const {
@@ -48,8 +51,8 @@ private:
   std::vector<std::vector<double>> sums_;
 };
 
-/// The middle of four directions at a point, to mean[0], mean[pitch] and mean[2 pitch]; returns the greatest angle
-/// between it and them.
+/// The middle of four directions at a point, to mean[0], mean[pitch] and mean[2 pitch]; returns the greatest
+/// angle between it and them.
 float cone_of_corners(std::span<const GridOperand> corners, size_t point, float* mean, size_t pitch);
 /// environment("raytrace") and shadow("raytrace"): operands as of these functions.
 void trace_environment(const GridCall& call);

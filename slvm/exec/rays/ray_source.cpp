@@ -2,7 +2,6 @@
 #include "slvm/exec/rays/ray_source.h"
 
 #include "slvm/exec/differences.h"
-#include "slvm/exec/rays/sample_sequence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +31,6 @@ void resize(PointTriples& triples, size_t size) {
   for (PointArray& component : triples)
     component.resize(size);
 }
-void clear(PointTriples& triples) {
-  for (PointArray& component : triples)
-    component.clear();
-}
 
 } // namespace
 
@@ -44,17 +39,17 @@ void RaySource::begin(const GridCall& call, const RaySpec& spec, uint32_t call_s
   differentials = spec.differentials;
   read_points(call.run, spec, call_seed);
   read_cones(spec);
-  read_differences(call, spec);
+  read_differences(call, spec, call_seed);
   scattered_ = !base.empty() || !cosine_of_angle.empty();
 }
 
 void RaySource::read_points(const ShaderRun& run, const RaySpec& spec, uint32_t call_seed) {
   point.clear();
-  mask_for_each(run.mask.current(), run.points,
-                [&](size_t i) { point.push_back(static_cast<uint32_t>(i)); });
+  mask_for_each(run.mask.current(), run.points, [&](size_t i) { point.push_back(static_cast<uint32_t>(i)); });
   const size_t count = point.size();
   samples.resize(count);
-  seed.resize(count);
+  for (SampleUse use : {SampleUse::kTurn, SampleUse::kRadius})
+    seeds[static_cast<size_t>(use)].resize(count);
   shoots.resize(count);
   resize(origin, count);
   resize(axis, count);
@@ -68,7 +63,9 @@ void RaySource::read_points(const ShaderRun& run, const RaySpec& spec, uint32_t 
     const size_t from = point[i];
     samples[i] = sample_count(spec.samples.at(from));
     most_samples_ = std::max(most_samples_, samples[i]);
-    seed[i] = point_seed(run.state.grid->id, call_seed, point[i]);
+    const uint32_t seed = point_seed(run.state.grid->id, call_seed, point[i]);
+    for (SampleUse use : {SampleUse::kTurn, SampleUse::kRadius})
+      seeds[static_cast<size_t>(use)][i] = scramble_seed(seed, use);
     if (limited) max_distance[i] = spec.max_distance.at(from);
     if (spec.bias.given) bias[i] = spec.bias.at(from);
     for (size_t c = 0; c < 3 && spec.weight.given; ++c)
@@ -95,7 +92,8 @@ void RaySource::read_direction(const RaySpec& spec, size_t i) {
   if (spec.to_target) max_distance[i] = std::min(max_distance[i], static_cast<float>(length));
 }
 
-// The cone's edge is at z = cos(angle). Cosine-weighted cones go no farther than the half space, where the weight ends.
+// The cone's edge is at z = cos(angle). Cosine-weighted cones go no farther than the half space, where the
+// weight ends.
 void RaySource::read_cones(const RaySpec& spec) {
   auto angle_at = [&](size_t i) {
     const float angle = spec.angle.at(point[i]);
@@ -116,8 +114,8 @@ void RaySource::read_cones(const RaySpec& spec) {
     cosine_of_angle[i] = std::cos(angle);
     squared_sine[i] = s * s;
     // Solid angle of the cone, or what it is worth by cosine, in as many parts as there are samples.
-    const float size_of_cone = cosine ? std::numbers::pi_v<float> * s * s
-                                      : 2 * std::numbers::pi_v<float> * (1 - cosine_of_angle[i]);
+    const float size_of_cone =
+        cosine ? std::numbers::pi_v<float> * s * s : 2 * std::numbers::pi_v<float> * (1 - cosine_of_angle[i]);
     spread[i] = std::sqrt(std::max(size_of_cone, 0.0f) / static_cast<float>(samples[i]));
     float z[3] = {axis[0][i], axis[1][i], axis[2][i]}, x[3], y[3];
     directions_across(z, x, y);
@@ -128,15 +126,19 @@ void RaySource::read_cones(const RaySpec& spec) {
   }
 }
 
-void RaySource::read_differences(const GridCall& call, const RaySpec& spec) {
+void RaySource::read_differences(const GridCall& call, const RaySpec& spec, uint32_t call_seed) {
   bool based = false;
   for (size_t i = 0; i < size() && !based; ++i)
     based = spec.sample_base.at(point[i]) > 0;
   base.resize(based ? size() : 0);
-  for (size_t i = 0; i < base.size(); ++i)
+  for (SampleUse use : {SampleUse::kBaseU, SampleUse::kBaseV})
+    seeds[static_cast<size_t>(use)].resize(base.size());
+  for (size_t i = 0; i < base.size(); ++i) {
     base[i] = std::clamp(spec.sample_base.at(point[i]), 0.0f, 1.0f);
-  for (PointTriples* triples : {&origin_u, &origin_v, &axis_u, &axis_v})
-    clear(*triples);
+    const uint32_t seed = point_seed(call.run.state.grid->id, call_seed, point[i]);
+    for (SampleUse use : {SampleUse::kBaseU, SampleUse::kBaseV})
+      seeds[static_cast<size_t>(use)][i] = scramble_seed(seed, use);
+  }
   if ((!based && !differentials) || size() == 0) return;
   std::vector<uint32_t> place(call.run.points, ~0u);
   for (size_t i = 0; i < size(); ++i)
@@ -156,7 +158,12 @@ void RaySource::read_differences(const GridCall& call, const RaySpec& spec) {
   if (!differentials) return;
   take(spec.direction, true, axis_u);
   take(spec.direction, false, axis_v);
-  // Of the direction at length 1: what lies along it does not turn it.
+  turn_axes(spec);
+  read_widths();
+}
+
+// Of the direction at length 1: what lies along it does not turn it.
+void RaySource::turn_axes(const RaySpec& spec) {
   for (size_t i = 0; i < size(); ++i) {
     double squared = 0, d[3];
     for (size_t c = 0; c < 3; ++c) {
@@ -172,6 +179,36 @@ void RaySource::read_differences(const GridCall& call, const RaySpec& spec) {
       }
       for (size_t c = 0; c < 3; ++c)
         (*along)[c][i] = turn[c] - parallel * axis[c][i];
+    }
+  }
+}
+
+// From one point to the next (Igehy 1999, section 3.1.1), wider by the sample's part of the cone; narrower
+// where several samples share the element.
+void RaySource::read_widths() {
+  any_across = false;
+  for (PointTriples* triples : {&ray_origin_u, &ray_origin_v})
+    resize(*triples, size());
+  for (size_t k = 0; k < 2; ++k) {
+    turn_scale[k].resize(size());
+    across[k].resize(size());
+    const PointTriples& turns = k == 0 ? axis_u : axis_v;
+    const PointTriples& moves = k == 0 ? origin_u : origin_v;
+    PointTriples& ray_moves = k == 0 ? ray_origin_u : ray_origin_v;
+    for (size_t i = 0; i < size(); ++i) {
+      const float share = 1 / std::sqrt(static_cast<float>(samples[i]));
+      const float part = base.empty() ? 1.0f : 1 - base[i] * (1 - share);
+      const float side = spread.empty() ? 0.0f : spread[i];
+      float squared = 0;
+      for (size_t c = 0; c < 3; ++c) {
+        ray_moves[c][i] = part * moves[c][i];
+        squared += turns[c][i] * turns[c][i];
+      }
+      const float narrow = std::sqrt(squared), wide = std::sqrt(squared + side * side);
+      const bool turns_enough = narrow > 1e-3f * wide;
+      turn_scale[k][i] = turns_enough ? wide / narrow : 0.0f;
+      across[k][i] = turns_enough ? 0.0f : wide;
+      any_across |= across[k][i] > 0 && side > 0;
     }
   }
 }

@@ -1,18 +1,18 @@
-// Where the samples of a point go: four numbers from 0 to 1 for each, as evenly spread as can be for every count of
-// samples, and different at every point.
+// Where the samples of a point go: four numbers from 0 to 1 for each, as evenly spread as can be for every
+// count of samples, and different at every point.
 //
-// Sobol's sequence (I. M. Sobol, 1967), dimensions and direction numbers of S. Joe and F. Y. Kuo, "Constructing Sobol
-// sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30(5), 2008. Each point has a scrambling of
-// its own after A. B. Owen, by the hash of S. Laine and T. Karras in the form of B. Burley, "Practical Hash-based Owen
-// Scrambling", JCGT 9(4), 2020, section 3.
+// Sobol's sequence (I. M. Sobol, 1967), dimensions and direction numbers of S. Joe and F. Y. Kuo,
+// "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30(5), 2008.
+// Each point has a scrambling of its own after A. B. Owen, by the hash of S. Laine and T. Karras in the form
+// of B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020, section 3.
 #pragma once
 
 #include <cstdint>
 
 namespace slvm {
 
-/// A bijection in which every input bit changes about half of the output bits (C. Wellons, "Prospecting for Hash
-/// Functions", 2018).
+/// A bijection in which every input bit changes about half of the output bits (C. Wellons, "Prospecting for
+/// Hash Functions", 2018).
 constexpr uint32_t mixed_bits(uint32_t h) {
   h = (h ^ h >> 16) * 0x21f0aaadu;
   h = (h ^ h >> 15) * 0x735a2d97u;
@@ -49,7 +49,7 @@ inline float scrambled(uint32_t bits, uint32_t seed) {
   x ^= x * 0xb82f1e52u;
   x ^= x * 0xc7afe638u;
   x ^= x * 0x8d22f6e6u;
-  return static_cast<float>(reversed_bits(x) >> 8) * 0x1p-24f;
+  return static_cast<float>(static_cast<int32_t>(reversed_bits(x) >> 8)) * 0x1p-24f;
 }
 
 /// The seed of a point: of its grid, of the call.

@@ -43,7 +43,8 @@ float default_sample_base(const ShaderRun& run, const PointValue& samples) {
 float bias_attribute(const ShaderRun& run) {
   constexpr float kDefault = 0.01f;
   Value value;
-  const bool given = run.state.services.attribute(run.shading_state(), "trace:bias", value) && is_number(value);
+  const bool given =
+      run.state.services.attribute(run.shading_state(), "trace:bias", value) && is_number(value);
   return given ? value.numbers[0] : kDefault;
 }
 

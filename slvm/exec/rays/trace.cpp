@@ -1,5 +1,5 @@
-// trace(), visibility(), rayhittest(), fulltrace() and environment("raytrace"): the nearest surface along rays, as a mean
-// over the rays of each point.
+// trace(), visibility(), rayhittest(), fulltrace() and environment("raytrace"): the nearest surface along
+// rays, as a mean over the rays of each point.
 #include "slvm/exec/rays/ray_means.h"
 #include "slvm/exec/rays/shooting.h"
 
@@ -12,7 +12,8 @@ namespace {
 
 constexpr float kFar = 1e30f; ///< the distance of nothing
 
-RaySpec spec_of(const GridCall& call, const CallTokens& tokens, const Operand& origin, const Operand& direction) {
+RaySpec spec_of(const GridCall& call, const CallTokens& tokens, const Operand& origin,
+                const Operand& direction) {
   RaySpec spec;
   spec.origin = origin;
   spec.direction = direction;
@@ -37,7 +38,8 @@ struct Hits {
 /// Shoots all rays of a source: f(rays, hits) for each batch.
 class Tracer {
 public:
-  Tracer(const GridCall& call, const RaySpec& spec, const RayOptions& options) : call_(call), options_(options) {
+  Tracer(const GridCall& call, const RaySpec& spec, const RayOptions& options)
+      : call_(call), options_(options) {
     source.begin(call, spec, options.seed);
   }
 
@@ -51,8 +53,8 @@ public:
       found_.assign(2 * count, 0);
       std::vector<RayOutput> outputs;
       if (options_.shades)
-        outputs.push_back({RayOutput::From::kShaded, "Ci", Type::kColor, 0, hits_.colour.data(), count,
-                           found_.data()});
+        outputs.push_back(
+            {RayOutput::From::kShaded, "Ci", Type::kColor, 0, hits_.colour.data(), count, found_.data()});
       if (wants_normal)
         outputs.push_back({RayOutput::From::kPrimitive, "N", Type::kNormal, 0, hits_.normal.data(), count,
                            found_.data() + count});

@@ -29,9 +29,7 @@ public:
   float through(size_t place, size_t component) const {
     return shot_[place] ? static_cast<float>(sums_[component][place] / shot_[place]) : 1.0f;
   }
-  float mean(size_t place) const {
-    return (through(place, 0) + through(place, 1) + through(place, 2)) / 3;
-  }
+  float mean(size_t place) const { return (through(place, 0) + through(place, 1) + through(place, 2)) / 3; }
 
 private:
   // The first `fewest` rays of each point; then the rest of those points whose rays do not agree.
@@ -74,7 +72,8 @@ private:
   std::vector<float> through_;
 };
 
-RaySpec spec_of(const GridCall& call, const CallTokens& tokens, const PointValue& cone, const PointValue& samples) {
+RaySpec spec_of(const GridCall& call, const CallTokens& tokens, const PointValue& cone,
+                const PointValue& samples) {
   RaySpec spec;
   spec.to_target = true;
   spec.angle = tokens.has("samplecone") ? tokens.values("samplecone", 0) : cone;
@@ -92,7 +91,8 @@ public:
     in_light_ = run.program.kind == ShaderKind::kLight;
     const int32_t slot = run.bound.slot_of[static_cast<size_t>(Global::kL)];
     if (slot >= 0) l_ = &run.slots[static_cast<size_t>(slot)];
-    inside_ = l_ && (in_light_ ? run.emitting != ShaderRun::Emitting::kNothing : run.light_loop.current() != nullptr);
+    inside_ = l_ && (in_light_ ? run.emitting != ShaderRun::Emitting::kNothing
+                               : run.light_loop.current() != nullptr);
     distant_ = in_light_ ? run.emitting == ShaderRun::Emitting::kSolar : run.light_loop.is_distant();
     own_ = transform_point(run.instance.shader_to_current(), {0, 0, 0});
   }
@@ -143,7 +143,8 @@ float cone_of_corners(std::span<const GridOperand> corners, size_t point, float*
   return least < 1 - 1e-6f ? std::acos(std::max(least, -1.0f)) : 0.0f;
 }
 
-// Operands: result, map, channel, one position or four, pairs. Light is missing where it does not come through.
+// Operands: result, map, channel, one position or four, pairs. Light is missing where it does not come
+// through.
 void trace_shadow(const GridCall& call) {
   const ShaderRun& run = call.run;
   const size_t corners = call.info.signature.param_count - 2u, pitch = run.pitch;
@@ -191,7 +192,8 @@ void transmission(const GridCall& call) {
   spec.origin = call.operands[1].planes;
   spec.direction = call.operands[2].planes;
   spec.differentials = true; // surfaces on the way may be textured
-  const Transmission through(call, spec, tokens.ray_options(RayKind::kTransmission), tokens.number("minsamples", 0));
+  const Transmission through(call, spec, tokens.ray_options(RayKind::kTransmission),
+                             tokens.number("minsamples", 0));
   fill(call.run, call.operands[0], 1);
   for (size_t i = 0; i < through.size(); ++i)
     for (size_t c = 0; c < static_cast<size_t>(components(call.operands[0].type)); ++c)

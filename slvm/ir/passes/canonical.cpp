@@ -13,7 +13,7 @@ void canonicalise(Module& m) {
     for_each_inst(m, root, [&](InstId id) {
       Inst& inst = m.insts[id];
       if (inst.op != Op::kCall || inst.args.size() < 2) return;
-      if (shadeop(static_cast<ShadeopId>(inst.index)).name != "printf") return;
+      if (m.called(inst).name != "printf") return;
       if (std::none_of(inst.args.begin(), inst.args.end(), [&](ValueId v) { return m.varying(v); }))
         inst.index = shadeop_overloads("printonce")[0];
     });

@@ -92,16 +92,39 @@ private:
   }
 
   void visit_call(const Inst& inst) {
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    const ShadeopInfo& info = m_.called(inst);
     bool varying = info.flags & kHiddenVarying;
     for (ValueId a : inst.args)
       varying |= m_.varying(a);
+    if (info.kind == ShadeopKind::kPlugin) return visit_plugin_call(inst, info.signature, varying);
     if (!varying) return;
     for (size_t i = 0; i < inst.results.size(); ++i) {
       bool is_result = i == 0 && info.signature.result != Type::kVoid;
       bool uniform =
           (is_result && info.signature.uniform_result) || m_.type(inst.results[i]) == Type::kString;
       if (!uniform) make_varying(inst.results[i]);
+    }
+  }
+
+  // What a plug-in declares uniform is; strings may differ from point to point. Lanes that are off keep the
+  // elements of an array.
+  void visit_plugin_call(const Inst& inst, const Signature& s, bool varying) {
+    size_t next = 0;
+    if (s.result != Type::kVoid && next < inst.results.size()) {
+      if (varying && !s.uniform_result) make_varying(inst.results[next]);
+      ++next;
+    }
+    for (int i = 0; i < s.param_count; ++i) {
+      if (!s.param(i).output || next == inst.results.size()) continue;
+      const ValueId stored = inst.results[next++];
+      bool stored_varying = varying && !s.param(i).uniform;
+      if (m_.values[stored].array >= 0) {
+        Array& a = m_.arrays[static_cast<size_t>(m_.values[stored].array)];
+        stored_varying |= under_varying_control();
+        if (stored_varying && !a.varying) a.varying = changed_ = true;
+        stored_varying = a.varying;
+      }
+      if (stored_varying) make_varying(stored);
     }
   }
 
@@ -146,7 +169,8 @@ private:
   void visit_region_inst(InstId id) {
     Inst& inst = m_.insts[id];
     bool condition = inst.op == Op::kIf && m_.varying(inst.args[0]);
-    bool by_lane = is_light_statement(inst.op) || inst.op == Op::kGather; // lights and rays choose their lanes
+    bool by_lane =
+        is_light_statement(inst.op) || inst.op == Op::kGather; // lights and rays choose their lanes
     frames_.push_back({id, condition || by_lane});
     for (Region& r : inst.regions)
       visit(r);

@@ -109,7 +109,7 @@ private:
 
   void fold_call(InstId id) {
     const Inst& inst = m_.insts[id];
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    const ShadeopInfo& info = m_.called(inst);
     if (info.flags & (kNoFold | kEffect | kHiddenVarying) || info.kind != ShadeopKind::kKernel) return;
     if (fold_identity(id, info.name) || fold_logic(id, info.name)) return;
     if (!evaluator_ || inst.results.size() != 1) return;

@@ -24,8 +24,7 @@ private:
       Global g = m_.slots[inst.index].parameter ? Global::kCount : find_global(m_.slots[inst.index].name);
       if (g == Global::kL || g == Global::kCl || g == Global::kOl) return false;
     }
-    if (inst.op == Op::kCall && shadeop(static_cast<ShadeopId>(inst.index)).kind != ShadeopKind::kKernel)
-      return false;
+    if (inst.op == Op::kCall && m_.called(inst).kind != ShadeopKind::kKernel) return false;
     for (ValueId a : inst.args)
       if (depth_[a] >= loop_depth) return false;
     return true;

@@ -19,7 +19,7 @@ bool cheap(const Module& m, const Inst& inst) {
   case Op::kRetype: return true;
   case Op::kSlot: return effect_of(m, inst) == Effect::kNone;
   case Op::kCall: {
-    const ShadeopInfo& info = shadeop(static_cast<ShadeopId>(inst.index));
+    const ShadeopInfo& info = m.called(inst);
     if (info.kind != ShadeopKind::kKernel || effect_of(m, inst) != Effect::kNone) return false;
     // Operators, conversions and the like; not noise or transcendentals, which are worth skipping.
     return (info.flags & kInternal) || info.name == "min" || info.name == "max" || info.name == "abs" ||

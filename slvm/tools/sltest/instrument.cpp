@@ -128,7 +128,8 @@ void Marker::statement(Stmt& s) {
   }
 }
 
-// Variables for what rays find count as set where these hit something, those for the ray itself in both blocks.
+// Variables for what rays find count as set where these hit something, those for the ray itself in both
+// blocks.
 void Marker::gather(GatherStmt& s) {
   for (ExprPtr* e : {&s.category, &s.position, &s.direction, &s.angle, &s.samples})
     expr(*e);
@@ -139,14 +140,16 @@ void Marker::gather(GatherStmt& s) {
     Variable* set = output ? place(*t.value) : nullptr;
     if (!set) continue;
     at_hits.push_back(set);
-    if (t.info->name != "ray:length" && t.info->name.find('*') == std::string_view::npos) always.push_back(set);
+    if (t.info->name != "ray:length" && t.info->name.find('*') == std::string_view::npos)
+      always.push_back(set);
   }
   auto begin = [&](StmtPtr& block, const std::vector<Variable*>& variables) {
     if (variables.empty()) return;
     if (!block) block = std::make_unique<BlockStmt>(s.range);
     std::vector<StmtPtr>& list = static_cast<BlockStmt&>(*block).statements;
     for (Variable* set : variables)
-      list.insert(list.begin(), make_.statement(make_.assign(whole(*set, s.range), make_.number(1, s.range))));
+      list.insert(list.begin(),
+                  make_.statement(make_.assign(whole(*set, s.range), make_.number(1, s.range))));
   };
   body(s.body, probed(s));
   body(s.else_body);

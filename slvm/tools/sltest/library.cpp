@@ -3,6 +3,7 @@
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
+#include "slvm/plugin/finder.h"
 #include "slvm/support/path_list.h"
 #include "slvm/tools/sltest/instrument.h"
 
@@ -19,9 +20,12 @@ namespace fs = std::filesystem;
 struct ShaderLibrary::Tools {
   slc::Compiler compiler;
   std::unique_ptr<ir::ConstantEvaluator> evaluator = make_kernel_evaluator();
+  PluginFinder plugins;
+  explicit Tools(std::vector<std::string> plugin_folders) : plugins(std::move(plugin_folders)) {}
 };
 
-ShaderLibrary::ShaderLibrary() : tools_(std::make_unique<Tools>()) {}
+ShaderLibrary::ShaderLibrary(std::vector<std::string> plugin_folders)
+    : tools_(std::make_unique<Tools>(std::move(plugin_folders))) {}
 ShaderLibrary::~ShaderLibrary() = default;
 
 ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& source, CompileMode mode,
@@ -38,6 +42,7 @@ ShaderPtr ShaderLibrary::compile(const std::string& name, const std::string& sou
   slc::CompileOptions options;
   options.optimise = mode.opt_level;
   options.evaluator = tools_->evaluator.get();
+  options.plugins = &tools_->plugins;
   options.preprocess.include_dirs.assign(path.begin(), path.end());
   slc::CheckedSource checked = tools_->compiler.check(main, options, sources, diags);
   std::vector<slc::CompiledShader> compiled;

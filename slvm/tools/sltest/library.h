@@ -41,7 +41,8 @@ struct CompileMode {
 
 class ShaderLibrary {
 public:
-  ShaderLibrary();
+  /// `plugin_folders`: of plug-ins whose functions sources may call.
+  explicit ShaderLibrary(std::vector<std::string> plugin_folders = {});
   ~ShaderLibrary();
 
   /// Makes the text of a file known, so that messages about code that stands in it can show its lines.

@@ -123,7 +123,7 @@ int run(int argc, const char* const* argv) {
   if (parsed.done) return parsed.status;
   for (std::string& folder : standard_folders())
     options.path.push_back(std::move(folder));
-  ShaderLibrary library;
+  ShaderLibrary library(options.config.plugin_folders);
   if (!options.inputs.empty() && options.inputs[0].ends_with(".toml")) return run_tests(options, library);
   Outcome outcome = run_one_off(options, library);
   print(stdout, outcome.out);

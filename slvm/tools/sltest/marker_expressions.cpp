@@ -176,7 +176,7 @@ void Marker::call(ExprPtr& e) {
   };
   for (size_t i = 0; i < c.args.size(); ++i)
     argument(c.args[i], c.function ? c.function->formals[i]->output
-                                   : shadeop(c.shadeop).signature.param(static_cast<int>(i)).output);
+                                   : c.info().signature.param(static_cast<int>(i)).output);
   for (TokenArg& t : c.tokens)
     argument(t.value, t.info && t.info->output);
   if (e->type == Type::kVoid)

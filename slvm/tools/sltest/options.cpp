@@ -1,6 +1,7 @@
 #include "slvm/tools/sltest/options.h"
 
 #include "slvm/support/path_list.h"
+#include "slvm/support/shared_library.h"
 #include "slvm/tools/sltest/shapes.h"
 
 #include <CLI/CLI.hpp>
@@ -53,7 +54,7 @@ struct Texts {
   std::vector<int> resolution;
   std::vector<std::pair<std::string, std::string>> params;
   std::vector<std::string> settings, lights;
-  std::string path, probe;
+  std::string path, probe, plugins;
 };
 
 /// `--param:type=color NAME VALUE` becomes `--param "color NAME" VALUE`.
@@ -144,6 +145,7 @@ std::string finish(const Texts& texts, Options& options) {
   }
   if (!options.watch.coverage_folder.empty()) options.watch.coverage = true;
   options.path = split_path_list(texts.path);
+  options.config.plugin_folders = plugin_folders(texts.plugins);
   options.config.specialise = !options.no_specialise;
   bool tests = false, shaders = !options.expression.empty();
   for (const std::string& input : options.inputs)
@@ -218,6 +220,9 @@ void add_watch_options(CLI::App& app, Options& o) {
 void add_common_options(CLI::App& app, Options& o, Texts& texts) {
   app.add_option("--path", texts.path,
                  "Folders, separated by colons, in which shaders and what they include are searched");
+  app.add_option("--dso", texts.plugins,
+                 "Folders, separated by colons, of plug-ins whose functions shaders call "
+                 "(environment: ANEMONE_DSO_PATH)");
   app.add_option("--target", o.config.target,
                  "Instruction set: AVX3, AVX2, SSE4, SCALAR... (the best there is)");
   app.add_option("--strip", o.config.strip, "Points a strip, a multiple of 16 (128)")

@@ -90,6 +90,7 @@ std::unique_ptr<Binding> Binding::make(const Setup& setup, const Prepared& prepa
   options.strip_points = config.strip;
   options.target = config.target;
   options.specialise = config.specialise;
+  options.plugin_folders = config.plugin_folders;
   std::unique_ptr<Binding> binding(new Binding(options));
   binding->prepared_ = &prepared;
   binding->main_ = binding->bind(setup, setup.shader, library, config, error);

@@ -24,6 +24,7 @@ struct RunConfig {
   std::string target;                   ///< "": the best there is
   Instrumenter* instrumenter = nullptr; ///< marks sources, for observers of the run
   bool instrument_all = true;           ///< false: the shader under test only
+  std::vector<std::string> plugin_folders = {};
 };
 /// "strips of 128, -O2, specialised".
 std::string describe(const RunConfig&);

@@ -159,9 +159,9 @@ void ProgramWriter::illuminance() {
 // Variables that the rays of a loop set, as pairs.
 std::string ProgramWriter::ray_outputs() {
   constexpr std::pair<const char*, Type> kOutputs[] = {
-      {"surface:w", Type::kFloat},       {"surface:Ci", Type::kColor},     {"primitive:P", Type::kPoint},
-      {"ray:direction", Type::kVector},  {"ray:length", Type::kFloat},     {"surface:none", Type::kColor},
-      {"ray:origin", Type::kPoint},      {"primitive:N", Type::kNormal}};
+      {"surface:w", Type::kFloat},      {"surface:Ci", Type::kColor},  {"primitive:P", Type::kPoint},
+      {"ray:direction", Type::kVector}, {"ray:length", Type::kFloat},  {"surface:none", Type::kColor},
+      {"ray:origin", Type::kPoint},     {"primitive:N", Type::kNormal}};
   std::string pairs;
   std::vector<std::string> taken; // two outputs to one variable: which comes last is not defined
   for (auto [name, type] : kOutputs) {
@@ -181,7 +181,9 @@ std::string ProgramWriter::ray_outputs() {
 std::string ProgramWriter::ray_function() {
   const std::string p = expression(Type::kPoint, 2, false), d = expression(Type::kVector, 2, false);
   const std::string samples =
-      pointwise_ ? "" : fmt::format(", \"samples\", {}, \"samplecone\", 0.3, \"samplebase\", 0", 1 + choose_.below(4));
+      pointwise_
+          ? ""
+          : fmt::format(", \"samples\", {}, \"samplecone\", 0.3, \"samplebase\", 0", 1 + choose_.below(4));
   switch (choose_.below(5)) {
   case 0: return fmt::format("(float trace({}, {}{}))", p, d, samples);
   case 1: return fmt::format("comp(trace({}, {}{}), {})", p, d, samples, choose_.below(3));
@@ -191,7 +193,8 @@ std::string ProgramWriter::ray_function() {
   }
 }
 
-// A loop over rays, or a call that shoots some. Where a point must not depend on its grid nothing is left to chance.
+// A loop over rays, or a call that shoots some. Where a point must not depend on its grid nothing is left to
+// chance.
 void ProgramWriter::rays() {
   std::vector<const Variable*> floats = variables(Type::kFloat, false, true);
   std::erase_if(floats, [](const Variable* v) { return v->uniform; });

@@ -1,4 +1,5 @@
-// gather and traverse: which rays are shot, which block runs for each, what the variables are, how loops are left.
+// gather and traverse: which rays are shot, which block runs for each, what the variables are, how loops are
+// left.
 #include "slvm/kernels/table.h"
 #include "tests/unit/exec/ray_scene.h"
 
@@ -81,22 +82,25 @@ TEST_F(Gather, SetsVariablesBeforeTheBody) {
     })");
   EXPECT_EQ(values, all(0.5f + 2.5f + 12.5f + 1000 + 2000 + 40000 + 7 + 7 + 9));
   EXPECT_EQ(scene_.calls[0].outputs,
-            (std::vector<std::string>{"surface:Ci", "primitive:N", "surface:P", "surface:mine", "surface:three",
-                                      "attribute:user:depth"}));
+            (std::vector<std::string>{"surface:Ci", "primitive:N", "surface:P", "surface:mine",
+                                      "surface:three", "attribute:user:depth"}));
 }
 
 TEST_F(Gather, WhatIsMissingKeepsItsValue) {
   scene_.surfaces = {plane_at(5)};
-  EXPECT_EQ(run("float x = 3; color y = 5; gather(\"\", P, vector (0, 0, 1), 0, 1, \"surface:none\", x, \"primitive:N\", y) "
+  EXPECT_EQ(run("float x = 3; color y = 5; gather(\"\", P, vector (0, 0, 1), 0, 1, \"surface:none\", x, "
+                "\"primitive:N\", y) "
                 "result = x + comp(y, 1);"),
-            all(3)) << "a normal as a colour has the planes of one, and is found";
+            all(3))
+      << "a normal as a colour has the planes of one, and is found";
   EXPECT_EQ(run("float x = 3, d = 8; gather(\"\", P, vector (0, 0, -1), 0, 1, \"ray:length\", d) "
                 "result = 1; else result = x + d;"),
             all(11));
 }
 
 TEST_F(Gather, DirectionAndOriginAreKnownForMissesToo) {
-  EXPECT_EQ(run("vector d = 0; point o = 0; gather(\"\", P, vector (0, 3, 0), 0, 1, \"ray:direction\", d, \"ray:origin\", o) "
+  EXPECT_EQ(run("vector d = 0; point o = 0; gather(\"\", P, vector (0, 3, 0), 0, 1, \"ray:direction\", d, "
+                "\"ray:origin\", o) "
                 "result = -1; else result = ycomp(d) + 10 * zcomp(o);"),
             all(11));
 }
@@ -127,24 +131,27 @@ TEST_F(Gather, PointsLeaveOneByOne) {
 
 TEST_F(Gather, WithoutBreakAllRaysGoInFewBatches) {
   scene_.surfaces = {plane_at(5)};
-  EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0.1, 100) { if (u > 2) continue; result += 1; }"), all(100));
+  EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0.1, 100) { if (u > 2) continue; result += 1; }"),
+            all(100));
   EXPECT_EQ(scene_.calls.size(), 1u);
   EXPECT_EQ(scene_.calls[0].rays, 600u);
 }
 
 TEST_F(Gather, BatchesAreBounded) {
-  surface_ = instantiate(*machine_, source("gather(\"\", P, vector (0, 0, 1), 0.1, 100) result += 1; else result += 1;"));
+  surface_ = instantiate(
+      *machine_, source("gather(\"\", P, vector (0, 0, 1), 0.1, 100) result += 1; else result += 1;"));
   EXPECT_EQ(shade(40, 40), all(100, 1600));
   ASSERT_EQ(scene_.rays.size(), 160000u);
-  EXPECT_EQ(scene_.calls.size(), 3u);
+  EXPECT_EQ(scene_.calls.size(), 10u);
   for (const AskedCall& call : scene_.calls)
-    EXPECT_LE(call.rays, 65536u);
+    EXPECT_LE(call.rays, 16384u);
 }
 
 TEST_F(Gather, OnlyActivePointsShoot) {
   scene_.surfaces = {plane_at(5)};
-  EXPECT_EQ(run("if (u > 0.7) { gather(\"\", P, vector (0, 0, 1), 0, 4) result += 1; } else result = 9;", 4, 1),
-            (std::vector<float>{9, 9, 9, 4}));
+  EXPECT_EQ(
+      run("if (u > 0.7) { gather(\"\", P, vector (0, 0, 1), 0, 4) result += 1; } else result = 9;", 4, 1),
+      (std::vector<float>{9, 9, 9, 4}));
   ASSERT_EQ(scene_.rays.size(), 4u);
   for (const AskedRay& ray : scene_.rays)
     EXPECT_EQ(ray.point, 3u);
@@ -155,7 +162,8 @@ TEST_F(Gather, OnlyActivePointsShoot) {
 
 TEST_F(Gather, SamplesMayDifferFromPointToPoint) {
   scene_.surfaces = {plane_at(5)};
-  EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0, 1 + 3 * u) result += 1;", 4, 1), (std::vector<float>{1, 2, 3, 4}));
+  EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0, 1 + 3 * u) result += 1;", 4, 1),
+            (std::vector<float>{1, 2, 3, 4}));
   EXPECT_EQ(scene_.rays.size(), 10u);
   scene_.forget();
   EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0, 9, \"samplecount\", 2) result += 1;"), all(2));
@@ -227,7 +235,9 @@ TEST_F(Gather, RaysThatAreNotShotRunNeitherBlock) {
   scene_.surfaces = {plane_at(5)};
   scene_.too_deep = {1, 2};
   EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0, 4) result += 1; else result += 100;"), all(2));
-  EXPECT_EQ(run("float n = 0; gather(\"\", P, vector (0, 0, 1), 0, 4) { result += 1; if (result == 2) break; }"), all(2));
+  EXPECT_EQ(
+      run("float n = 0; gather(\"\", P, vector (0, 0, 1), 0, 4) { result += 1; if (result == 2) break; }"),
+      all(2));
 }
 
 TEST_F(Gather, WithoutDirectionNothingIsShot) {
@@ -247,8 +257,10 @@ TEST_F(Gather, WhereNobodyTracesEverythingMisses) {
 }
 
 TEST_F(Gather, OptionalArgumentsArrive) {
-  run("gather(\"illuminance\", P, vector (0, 0, 1), PI / 2, 2, \"label\", \"mine\", \"subset\", \"a,-b\", \"hitsides\", "
-      "\"front\", \"hitmode\", \"primitive\", \"bias\", 0.5 + u, \"maxdist\", 3 * (1 + u), \"weight\", color (0.5, u, 1)) result = 1;",
+  run("gather(\"illuminance\", P, vector (0, 0, 1), PI / 2, 2, \"label\", \"mine\", \"subset\", \"a,-b\", "
+      "\"hitsides\", "
+      "\"front\", \"hitmode\", \"primitive\", \"bias\", 0.5 + u, \"maxdist\", 3 * (1 + u), \"weight\", color "
+      "(0.5, u, 1)) result = 1;",
       2, 1);
   ASSERT_EQ(scene_.calls.size(), 1u);
   const AskedCall& call = scene_.calls[0];
@@ -265,13 +277,14 @@ TEST_F(Gather, OptionalArgumentsArrive) {
 }
 
 TEST_F(Gather, WrongWordsAreReported) {
-  run("gather(\"\", P, vector (0, 0, 1), 0, 1, \"hitsides\", \"outside\", \"hitmode\", \"fast\") result = 1;");
+  run("gather(\"\", P, vector (0, 0, 1), 0, 1, \"hitsides\", \"outside\", \"hitmode\", \"fast\") result = "
+      "1;");
   std::vector<std::string> texts;
   for (const RuntimeMessage& m : machine_->messages())
     texts.push_back(m.text);
-  EXPECT_EQ(texts, (std::vector<std::string>{
-                       "gather: \"hitmode\" is default or primitive or shader, not \"fast\"",
-                       "gather: \"hitsides\" is both or front or back, not \"outside\""}));
+  EXPECT_EQ(texts,
+            (std::vector<std::string>{"gather: \"hitmode\" is default or primitive or shader, not \"fast\"",
+                                      "gather: \"hitsides\" is both or front or back, not \"outside\""}));
 }
 
 TEST_F(Gather, NarrowConesAreSpecular) {
@@ -289,40 +302,51 @@ TEST_F(Gather, NarrowConesAreSpecular) {
 }
 
 TEST_F(Gather, SamplePatternShootsNothing) {
-  EXPECT_EQ(run("vector d = 0, r = 0; gather(\"samplepattern\", P, vector (0, 0, 1), PI / 2, 16, \"ray:direction\", d, "
-                "\"sample:randompair\", r) { result += zcomp(d) > 0 && xcomp(r) < 1 && ycomp(r) >= 0 ? 1 : -100; } "
-                "else result = -1;"),
-            all(16));
+  EXPECT_EQ(
+      run("vector d = 0, r = 0; gather(\"samplepattern\", P, vector (0, 0, 1), PI / 2, 16, "
+          "\"ray:direction\", d, "
+          "\"sample:randompair\", r) { result += zcomp(d) > 0 && xcomp(r) < 1 && ycomp(r) >= 0 ? 1 : -100; } "
+          "else result = -1;"),
+      all(16));
   EXPECT_TRUE(scene_.rays.empty());
 }
 
 TEST_F(Gather, MapsGiveDirections) {
   // 1 / (density n) each: all together the half sphere the map's light comes from, weighted by its sixth.
-  const auto solid = run("float w = 0; color c = 0; vector d = 0; gather(\"environment:sky\", P, vector (0, 0, 0), 0, 8, "
-                         "\"environment:solidangle\", w, \"environment:color\", c, \"environment:direction\", d) "
-                         "result += w * comp(c, 2) * (ycomp(d) >= 0.5 ? 1 : 100);");
+  const auto solid =
+      run("float w = 0; color c = 0; vector d = 0; gather(\"environment:sky\", P, vector (0, 0, 0), 0, 8, "
+          "\"environment:solidangle\", w, \"environment:color\", c, \"environment:direction\", d) "
+          "result += w * comp(c, 2) * (ycomp(d) >= 0.5 ? 1 : 100);");
   for (float x : solid)
     EXPECT_NEAR(x, 3 * std::numbers::pi, 1e-4);
   EXPECT_TRUE(scene_.rays.empty());
   // Rays that go there; those outside the cone are neither hits nor misses.
   scene_.surfaces = {sphere_at({0, 0, 0}, 100)};
-  EXPECT_EQ(run("gather(\"\", P, vector (0, 1, 0), PI / 2, 8, \"distribution\", \"sky\") result += 1; else result = -1;"),
+  EXPECT_EQ(run("gather(\"\", P, vector (0, 1, 0), PI / 2, 8, \"distribution\", \"sky\") result += 1; else "
+                "result = -1;"),
             all(8));
   EXPECT_EQ(scene_.rays.size(), 48u);
   scene_.forget();
-  EXPECT_EQ(run("gather(\"\", P, vector (0, -1, 0), PI / 2, 8, \"distribution\", \"sky\") result += 1; else result = -1;"),
+  EXPECT_EQ(run("gather(\"\", P, vector (0, -1, 0), PI / 2, 8, \"distribution\", \"sky\") result += 1; else "
+                "result = -1;"),
             all(0));
   EXPECT_TRUE(scene_.rays.empty());
   scene_.map_problem = "cannot be read";
-  EXPECT_EQ(run("gather(\"environment:sky\", P, vector (0, 0, 0), 0, 8) result += 1; else result += 1;"), all(0));
+  EXPECT_EQ(run("gather(\"environment:sky\", P, vector (0, 0, 0), 0, 8) result += 1; else result += 1;"),
+            all(0));
   EXPECT_EQ(machine_->messages().at(0).text, "environment \"sky\": cannot be read");
 }
 
 TEST_F(Gather, EffectiveBias) {
-  EXPECT_EQ(run("float b = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"effectivebias\", b) ; else result = b;"), all(0.01f));
+  EXPECT_EQ(
+      run("float b = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"effectivebias\", b) ; else result = b;"),
+      all(0.01f));
   services_.attributes["trace:bias"] = {Type::kFloat, 0, {0.25f}, {}};
-  EXPECT_EQ(run("float b = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"effectivebias\", b) ; else result = b;"), all(0.25f));
-  EXPECT_EQ(run("float b = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"bias\", 0.5, \"effectivebias\", b) ; else result = b;"),
+  EXPECT_EQ(
+      run("float b = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"effectivebias\", b) ; else result = b;"),
+      all(0.25f));
+  EXPECT_EQ(run("float b = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"bias\", 0.5, \"effectivebias\", b) ; "
+                "else result = b;"),
             all(0.5f));
 }
 
@@ -336,12 +360,15 @@ TEST_F(Gather, LoopsOverRaysEndInTime) {
 
 TEST_F(Gather, TraverseMeetsSurfacesInOrder) {
   scene_.surfaces = {plane_at(9, {0.25f, 0, 0}), plane_at(3, {1, 0, 0}), plane_at(5, {0.5f, 0, 0})};
-  EXPECT_EQ(run("float w = 1, d = 0; color c = 0; traverse(\"\", P, vector (0, 0, 1), \"surface:Ci\", c, \"ray:length\", d) { "
+  EXPECT_EQ(run("float w = 1, d = 0; color c = 0; traverse(\"\", P, vector (0, 0, 1), \"surface:Ci\", c, "
+                "\"ray:length\", d) { "
                 "result += w * (comp(c, 0) + 100 * d); w *= 10; } else result = -1;"),
             all(1 + 200 + 10 * (0.5f + 400) + 100 * (0.25f + 800)));
   EXPECT_EQ(run("traverse(\"\", P, vector (0, 0, -1)) result += 1; else result += 100;"), all(100));
-  EXPECT_EQ(run("traverse(\"\", P, vector (0, 0, 1 - 2 * u), \"maxdist\", 5) result += 1; else result += 100;", 2, 1),
-            (std::vector<float>{2, 100}));
+  EXPECT_EQ(
+      run("traverse(\"\", P, vector (0, 0, 1 - 2 * u), \"maxdist\", 5) result += 1; else result += 100;", 2,
+          1),
+      (std::vector<float>{2, 100}));
 }
 
 TEST_F(Gather, BreakStopsTraversal) {
@@ -360,7 +387,8 @@ TEST_F(Gather, SurfacesInOnePlaceAreMetOneByOne) {
 
 TEST_F(Gather, ScatteredValuesHaveNoDerivatives) {
   scene_.surfaces = {plane_at(5)};
-  const std::string body = "point p = 0; gather(\"\", P, vector (0, 0, 1), {}, 1, \"surface:P\", p) result = length(Du(p));";
+  const std::string body =
+      "point p = 0; gather(\"\", P, vector (0, 0, 1), {}, 1, \"surface:P\", p) result = length(Du(p));";
   EXPECT_EQ(run(fmt::format(fmt::runtime(body), "0.2")), all(0));
   EXPECT_EQ(run(fmt::format(fmt::runtime(body), "0")), all(1));
 }
@@ -372,7 +400,8 @@ TEST_F(Gather, DifferentialsOnlyWhereSomethingIsShaded) {
   run("normal n = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"primitive:N\", n) result = zcomp(n);");
   EXPECT_FALSE(scene_.rays.at(0).has_differentials);
   scene_.forget();
-  run("color c = 0; gather(\"occlusion\", P, vector (0, 0, 1), 0, 1, \"surface:Ci\", c) result = comp(c, 0);");
+  run("color c = 0; gather(\"occlusion\", P, vector (0, 0, 1), 0, 1, \"surface:Ci\", c) result = comp(c, "
+      "0);");
   EXPECT_FALSE(scene_.rays.at(0).has_differentials);
   scene_.forget();
   run("color c = 0; gather(\"\", P, vector (0, 0, 1), 0, 1, \"surface:Ci\", c) result = comp(c, 0);");
@@ -393,7 +422,8 @@ TEST_F(Gather, DifferentialsAreThoseOfTheUnitDirection) {
 }
 
 TEST_F(Gather, ConesWidenDifferentials) {
-  run("color c = 0; gather(\"\", P, vector (0, 0, 1), PI / 3, 16, \"surface:Ci\", c, \"samplebase\", 0) result += 1; else result += 1;");
+  run("color c = 0; gather(\"\", P, vector (0, 0, 1), PI / 3, 16, \"surface:Ci\", c, \"samplebase\", 0) "
+      "result += 1; else result += 1;");
   const double side = std::sqrt(2 * std::numbers::pi * (1 - std::cos(std::numbers::pi / 3)) / 16);
   auto dot = [](const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   for (const AskedRay& ray : scene_.rays) {
@@ -428,7 +458,8 @@ surface s(output varying float result = 0; float k = 0.4) {
 })";
 
 std::vector<float> shade_mixed(const Machine& machine, int level, RayServicesScene& services) {
-  services.scene.surfaces = {sphere_at({0.4, 0.6, 3}, 0.7, {0.5f, 1, 1}), plane_at(5, {0.25f, 1, 1}), plane_at(7)};
+  services.scene.surfaces = {sphere_at({0.4, 0.6, 3}, 0.7, {0.5f, 1, 1}), plane_at(5, {0.25f, 1, 1}),
+                             plane_at(7)};
   auto shader = machine.load(compile(kMixed, level));
   auto surface = machine.instantiate(*shader, {});
   Grid grid = square(17, 5);
@@ -443,15 +474,17 @@ std::vector<float> shade_mixed(const Machine& machine, int level, RayServicesSce
 
 TEST(GatherDeterminism, StripsLevelsAndSpecialisationDoNotMatter) {
   RayServicesScene services;
-  const std::vector<float> expected = shade_mixed(Machine({.strip_points = 4096, .specialise = false}), 0, services);
+  const std::vector<float> expected =
+      shade_mixed(Machine({.strip_points = 4096, .specialise = false}), 0, services);
   const size_t rays = services.scene.rays.size();
   for (int level : {0, 1, 2})
     for (uint32_t strip : {16u, 80u, 256u})
       for (bool specialise : {false, true}) {
         services.scene.forget();
-        EXPECT_EQ(shade_mixed(Machine({.strip_points = strip, .specialise = specialise, .poison_registers = true}), level,
-                              services),
-                  expected)
+        EXPECT_EQ(
+            shade_mixed(Machine({.strip_points = strip, .specialise = specialise, .poison_registers = true}),
+                        level, services),
+            expected)
             << "-O" << level << " strips of " << strip << " specialise " << specialise;
         EXPECT_EQ(services.scene.rays.size(), rays);
       }

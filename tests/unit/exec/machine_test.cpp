@@ -50,7 +50,8 @@ TEST_F(MachineTest, WrongParametersAreNamed) {
 }
 
 TEST_F(MachineTest, WhatTheBuildCannotServeIsNamedAtBinding) {
-  auto shader = machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = caustic(P, N); }"));
+  auto shader =
+      machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = caustic(P, N); }"));
   ASSERT_TRUE(shader);
   std::vector<ParamValue> map{{"map", {Type::kString, 0, {}, {"brick.tx"}}}};
   auto traced = machine.instantiate(*shader, map);

@@ -38,7 +38,8 @@ AskedRay ray_of(const RayBatch& batch, size_t r) {
 }
 
 AskedCall call_of(const RayOptions& o) {
-  return {o.kind, o.sides, o.mode, std::string(o.label), std::string(o.subset), o.shades, false, o.seed, 0, {}};
+  return {o.kind, o.sides, o.mode, std::string(o.label), std::string(o.subset), o.shades, false,
+          o.seed, 0,       {}};
 }
 
 const char* name_of(RayOutput::From from) {
@@ -76,7 +77,8 @@ std::vector<RayScene::Meeting> RayScene::meetings(const AskedRay& ray, const Ray
     };
     const Vec to{s.at[0] - ray.origin[0], s.at[1] - ray.origin[1], s.at[2] - ray.origin[2]};
     if (s.sphere) {
-      const double middle = dot(to, ray.direction), squared = s.radius * s.radius - dot(to, to) + middle * middle;
+      const double middle = dot(to, ray.direction),
+                   squared = s.radius * s.radius - dot(to, to) + middle * middle;
       if (squared < 0) continue;
       meet(middle - std::sqrt(squared), 0);
       meet(middle + std::sqrt(squared), 1);
@@ -105,7 +107,8 @@ void RayScene::bring(const RayOutput& output, size_t r, const AskedRay& ray, con
              output.from == RayOutput::From::kShaded) {
     const bool colour = output.type == Type::kColor;
     if (output.name == "Ci" && colour) value.assign(s.colour.begin(), s.colour.end());
-    if ((output.name == "Oi" || output.name == "Os") && colour) value.assign(s.opacity.begin(), s.opacity.end());
+    if ((output.name == "Oi" || output.name == "Os") && colour)
+      value.assign(s.opacity.begin(), s.opacity.end());
     if (output.name == "P" && output.type == Type::kPoint) value = triple_of(p);
     if (output.name == "N" && is_triple(output.type)) {
       value = triple_of(s.normal);

@@ -1,5 +1,5 @@
-// A scene of spheres and planes that traces rays one by one, by their formulas, and remembers what it was asked: what
-// the tests of rays compare with.
+// A scene of spheres and planes that traces rays one by one, by their formulas, and remembers what it was
+// asked: what the tests of rays compare with.
 #pragma once
 
 #include "tests/unit/exec/shading.h"
@@ -14,11 +14,12 @@ using Vec = std::array<double, 3>;
 
 struct TestSurface {
   bool sphere = true;
-  Vec at{};           ///< centre, or a point of the plane
+  Vec at{};            ///< centre, or a point of the plane
   Vec normal{0, 0, 1}; ///< of the plane
   double radius = 1;
   std::array<float, 3> colour{1, 1, 1}, opacity{1, 1, 1};
-  std::map<std::string, Value, std::less<>> variables; ///< by "surface:name", "primitive:name", "attribute:name"
+  std::map<std::string, Value, std::less<>>
+      variables; ///< by "surface:name", "primitive:name", "attribute:name"
   std::string group;
 };
 
@@ -66,9 +67,10 @@ public:
   std::vector<AskedHemisphere> hemispheres;
   std::string map_problem;
 
-  void trace(const ShadingState&, const RayOptions&, const RayBatch&, std::span<const RayOutput>, float* distance,
-             RayCursor*) override;
-  void transmission(const ShadingState&, const RayOptions&, const RayBatch&, float* const (&through)[3]) override;
+  void trace(const ShadingState&, const RayOptions&, const RayBatch&, std::span<const RayOutput>,
+             float* distance, RayCursor*) override;
+  void transmission(const ShadingState&, const RayOptions&, const RayBatch&,
+                    float* const (&through)[3]) override;
   std::string hemisphere(const ShadingState&, const HemisphereQuery&) override;
   /// A map that is bright in +y only: directions about it, with density 1 / PI.
   std::string sample_environment(const ShadingState&, const EnvironmentSamples&) override;

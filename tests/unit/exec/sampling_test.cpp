@@ -1,5 +1,5 @@
-// Where rays go: distributions against their densities, evenness within a point, and independence between points, calls
-// and grids.
+// Where rays go: distributions against their densities, evenness within a point, and independence between
+// points, calls and grids.
 #include "tests/unit/exec/ray_scene.h"
 
 #include "slvm/exec/rays/sample_sequence.h"
@@ -25,9 +25,11 @@ std::vector<AskedRay> rays_of(const std::string& statements, int nu, int nv, uin
   return services.scene.rays;
 }
 
-std::vector<AskedRay> gather_rays(const std::string& angle, int samples, const std::string& tokens, int nu, int nv,
-                                  uint64_t id = 11) {
-  return rays_of(fmt::format("gather(\"\", P, vector (0, 0, 1), {}, {}{}) Ci += 1; else Ci += 1;", angle, samples, tokens), nu, nv, id);
+std::vector<AskedRay> gather_rays(const std::string& angle, int samples, const std::string& tokens, int nu,
+                                  int nv, uint64_t id = 11) {
+  return rays_of(fmt::format("gather(\"\", P, vector (0, 0, 1), {}, {}{}) Ci += 1; else Ci += 1;", angle,
+                             samples, tokens),
+                 nu, nv, id);
 }
 
 /// Pearson's statistic of counts that should all be the same.
@@ -58,13 +60,15 @@ template <class Height> double chi_square_of_cone(const std::vector<AskedRay>& r
 constexpr double kMostOf63 = 103.4;
 
 TEST(Sampling, UniformConesAreUniform) {
-  for (auto [text, angle] : {std::pair("0.3", 0.3), {"PI / 2", std::numbers::pi / 2}, {"PI", std::numbers::pi}}) {
+  for (auto [text, angle] :
+       {std::pair("0.3", 0.3), {"PI / 2", std::numbers::pi / 2}, {"PI", std::numbers::pi}}) {
     const auto rays = gather_rays(text, 1, "", 100, 100);
     ASSERT_EQ(rays.size(), 10000u);
     const double least = std::cos(angle);
     for (const AskedRay& ray : rays)
       ASSERT_GE(ray.direction[2], least - 1e-6);
-    EXPECT_LT(chi_square_of_cone(rays, [&](const AskedRay& r) { return (1 - r.direction[2]) / (1 - least); }), kMostOf63)
+    EXPECT_LT(chi_square_of_cone(rays, [&](const AskedRay& r) { return (1 - r.direction[2]) / (1 - least); }),
+              kMostOf63)
         << text;
   }
 }
@@ -88,7 +92,8 @@ TEST(Sampling, CosineConesAreDenseAsTheCosine) {
 
 TEST(Sampling, DirectionsHaveLengthOneAboutAnyAxis) {
   for (const char* axis : {"1, 0, 0", "0, 0, -1", "0, -1, 0", "-0.3, 0.5, -0.7"}) {
-    const auto rays = rays_of(fmt::format("gather(\"\", P, 5 * vector ({}), 0.4, 64) Ci += 1; else Ci += 1;", axis), 4, 4);
+    const auto rays =
+        rays_of(fmt::format("gather(\"\", P, 5 * vector ({}), 0.4, 64) Ci += 1; else Ci += 1;", axis), 4, 4);
     Vec mean{};
     for (const AskedRay& ray : rays) {
       double length = 0;
@@ -99,12 +104,14 @@ TEST(Sampling, DirectionsHaveLengthOneAboutAnyAxis) {
       EXPECT_NEAR(length, 1, 1e-6);
     }
     // The mean of a uniform cone: (1 + cos a) / 2 along its axis.
-    EXPECT_NEAR(std::sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]), (1 + std::cos(0.4)) / 2, 2e-3);
+    EXPECT_NEAR(std::sqrt(mean[0] * mean[0] + mean[1] * mean[1] + mean[2] * mean[2]), (1 + std::cos(0.4)) / 2,
+                2e-3);
   }
 }
 
 TEST(Sampling, SamplesOfAPointAreSpreadEvenly) {
-  // Any 16 of a (0, 2)-sequence that begin at a multiple of 16 are one in each cell of 16 x 1, 8 x 2, 4 x 4...
+  // Any 16 of a (0, 2)-sequence that begin at a multiple of 16 are one in each cell of 16 x 1, 8 x 2, 4
+  // x 4...
   for (uint32_t point : {0u, 1u, 77u}) {
     const uint32_t seed = point_seed(5, 2, point);
     for (uint32_t from : {0u, 16u, 96u})
@@ -118,7 +125,8 @@ TEST(Sampling, SamplesOfAPointAreSpreadEvenly) {
           ++cells[static_cast<size_t>(x * static_cast<float>(columns)) * (16 / columns) +
                   static_cast<size_t>(y * rows)];
         }
-        EXPECT_EQ(cells, std::vector<int>(16, 1)) << point << " from " << from << " in " << columns << " columns";
+        EXPECT_EQ(cells, std::vector<int>(16, 1))
+            << point << " from " << from << " in " << columns << " columns";
       }
   }
 }
@@ -141,7 +149,9 @@ TEST(Sampling, PointsCallsAndGridsDiffer) {
     EXPECT_NE(rays[r].direction, rays[r - 1].direction);
   for (size_t r = 0; r < rays.size(); ++r)
     EXPECT_NE(rays[r].direction, other_grid[r].direction);
-  const auto two = rays_of("float i; for (i = 0; i < 2; i += 1) gather(\"\", P, vector (0, 0, 1), 0.5, 1) Ci += 1; else Ci += 1;", 8, 8);
+  const auto two = rays_of(
+      "float i; for (i = 0; i < 2; i += 1) gather(\"\", P, vector (0, 0, 1), 0.5, 1) Ci += 1; else Ci += 1;",
+      8, 8);
   ASSERT_EQ(two.size(), 128u);
   for (size_t r = 0; r < 64; ++r)
     EXPECT_NE(two[r].direction, two[r + 64].direction);
@@ -175,7 +185,8 @@ TEST(Sampling, OriginsAreSpreadOverTheElement) {
 }
 
 TEST(Sampling, MeansFallFasterThanChance) {
-  // The part of a disk's light through half of it: with n even samples the error falls faster than 1 / sqrt(n).
+  // The part of a disk's light through half of it: with n even samples the error falls faster than 1 /
+  // sqrt(n).
   auto error = [](int samples) {
     std::vector<double> inside(100);
     for (const AskedRay& ray : gather_rays("0.5", samples, ", \"distribution\", \"cosine\"", 10, 10))

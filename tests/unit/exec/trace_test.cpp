@@ -1,4 +1,5 @@
-// trace(), transmission() and their relatives: what they ask of who traces rays, and what they make of the answers.
+// trace(), transmission() and their relatives: what they ask of who traces rays, and what they make of the
+// answers.
 #include "tests/unit/exec/ray_scene.h"
 
 #include <cmath>
@@ -49,7 +50,8 @@ TEST_F(Trace, DistanceToTheNearest) {
 
 TEST_F(Trace, ColourOfTheNearest) {
   scene_.surfaces = {plane_at(4, {0.5f, 0.25f, 1})};
-  EXPECT_EQ(run("color c = trace(P, vector (0, 0, 1 - 2 * u)); result = comp(c, 0) + 10 * comp(c, 1) + 100 * comp(c, 2);"),
+  EXPECT_EQ(run("color c = trace(P, vector (0, 0, 1 - 2 * u)); result = comp(c, 0) + 10 * comp(c, 1) + 100 * "
+                "comp(c, 2);"),
             (std::vector<float>{103, 0}));
   EXPECT_EQ(scene_.calls.at(0).outputs, std::vector<std::string>{"shaded:Ci"});
   EXPECT_TRUE(scene_.rays.at(0).has_differentials);
@@ -58,7 +60,8 @@ TEST_F(Trace, ColourOfTheNearest) {
 TEST_F(Trace, SamplesAreAveraged) {
   scene_.surfaces = {plane_at(4, {0.5f, 0, 0})};
   scene_.too_deep = {1};
-  EXPECT_EQ(run("result = comp(trace(P, vector (0, 0, 1), \"samples\", 4, \"samplecone\", 0.1), 0);"), all(0.375f));
+  EXPECT_EQ(run("result = comp(trace(P, vector (0, 0, 1), \"samples\", 4, \"samplecone\", 0.1), 0);"),
+            all(0.375f));
   EXPECT_EQ(scene_.rays.size(), 8u);
   for (const AskedRay& ray : scene_.rays)
     EXPECT_GE(ray.direction[2], std::cos(0.1) - 1e-6);
@@ -74,7 +77,8 @@ TEST_F(Trace, OnlyActivePointsShoot) {
 }
 
 TEST_F(Trace, TokensArrive) {
-  run("result = comp(trace(P, vector (0, 0, 1), \"label\", \"mirror\", \"subset\", \"near\", \"hitmode\", \"shader\", "
+  run("result = comp(trace(P, vector (0, 0, 1), \"label\", \"mirror\", \"subset\", \"near\", \"hitmode\", "
+      "\"shader\", "
       "\"importance\", color (0.5, 0.25, 0)), 0);");
   const AskedCall& call = scene_.calls.at(0);
   EXPECT_EQ(call.label, "mirror");
@@ -88,7 +92,8 @@ TEST_F(Trace, WithoutATracer) {
   EXPECT_EQ(run("result = comp(trace(P, vector (0, 0, 1)), 0) + float trace(P, vector (0, 0, 1)) / 1e30;\n"
                 "result += comp(transmission(P, P + vector (0, 0, 1)), 0) + occlusion(P, N, 4);"),
             all(2));
-  EXPECT_EQ(messages(), (std::vector<std::string>(2, "nobody traces rays here: they hit nothing"))) << "one a line";
+  EXPECT_EQ(messages(), (std::vector<std::string>(2, "nobody traces rays here: they hit nothing")))
+      << "one a line";
 }
 
 TEST_F(Trace, TransmissionIsTheProductOfWhatIsLetThrough) {
@@ -96,7 +101,8 @@ TEST_F(Trace, TransmissionIsTheProductOfWhatIsLetThrough) {
   red.opacity = {0, 0.5f, 1};
   grey.opacity = {0.5f, 0.5f, 0.5f};
   scene_.surfaces = {red, grey, far};
-  EXPECT_EQ(run("color t = transmission(P, P + vector (0, 0, 8)); result = comp(t, 0) + 10 * comp(t, 1) + 100 * comp(t, 2);"),
+  EXPECT_EQ(run("color t = transmission(P, P + vector (0, 0, 8)); result = comp(t, 0) + 10 * comp(t, 1) + "
+                "100 * comp(t, 2);"),
             all(0.5f + 2.5f));
   EXPECT_EQ(scene_.calls.at(0).kind, RayKind::kTransmission);
   EXPECT_NEAR(scene_.rays.at(0).max_distance, 8, 1e-6);
@@ -106,7 +112,8 @@ TEST_F(Trace, TransmissionIsTheProductOfWhatIsLetThrough) {
 
 TEST_F(Trace, TransmissionInACone) {
   scene_.surfaces = {plane_at(3)};
-  EXPECT_EQ(run("result = float transmission(P, P + vector (0, 0, 8), \"samples\", 16, \"samplecone\", 0.2, \"bias\", -1);"),
+  EXPECT_EQ(run("result = float transmission(P, P + vector (0, 0, 8), \"samples\", 16, \"samplecone\", 0.2, "
+                "\"bias\", -1);"),
             all(0));
   EXPECT_EQ(scene_.rays.size(), 32u);
   for (const AskedRay& ray : scene_.rays) {
@@ -122,12 +129,14 @@ TEST_F(Trace, TransmissionInACone) {
 
 TEST_F(Trace, TransmissionStopsWhereRaysAgree) {
   scene_.surfaces = {plane_at(3)};
-  run("result = float transmission(P, P + vector (0, 0, 8), \"samples\", 64, \"minsamples\", 8, \"samplecone\", 0.2);");
+  run("result = float transmission(P, P + vector (0, 0, 8), \"samples\", 64, \"minsamples\", 8, "
+      "\"samplecone\", 0.2);");
   EXPECT_EQ(scene_.rays.size(), 16u);
   scene_.forget();
   scene_.surfaces = {sphere_at({0, 0, 5}, 1)}; // the first point sees its edge, the other one nothing
-  const auto half = run("result = float transmission(P, point (9 * u, 0, 9), \"samples\", 64, \"minsamples\", 8, "
-                        "\"samplecone\", 0.5, \"samplebase\", 0);");
+  const auto half =
+      run("result = float transmission(P, point (9 * u, 0, 9), \"samples\", 64, \"minsamples\", 8, "
+          "\"samplecone\", 0.5, \"samplebase\", 0);");
   EXPECT_EQ(scene_.rays.size(), 64u + 8);
   EXPECT_GT(half[0], 0);
   EXPECT_LT(half[0], 1);
@@ -138,7 +147,8 @@ TEST_F(Trace, VisibilityIsAllOrNothing) {
   TestSurface glass = plane_at(3);
   glass.opacity = {0, 0, 0};
   scene_.surfaces = {glass};
-  EXPECT_EQ(run("result = float visibility(P, P + vector (0, 0, 4)) + 10 * float visibility(P, P + vector (0, 0, 1));"),
+  EXPECT_EQ(run("result = float visibility(P, P + vector (0, 0, 4)) + 10 * float visibility(P, P + vector "
+                "(0, 0, 1));"),
             all(10));
   EXPECT_EQ(scene_.calls.at(0).kind, RayKind::kTransmission);
   EXPECT_FALSE(scene_.calls.at(0).shades);
@@ -154,19 +164,23 @@ TEST_F(Trace, RayHitTest) {
 
 TEST_F(Trace, FullTrace) {
   scene_.surfaces = {plane_at(4, {0.5f, 0, 0})};
-  EXPECT_EQ(run("color c = 0; float d = 0; point h = 0, m = 0; vector n = 0, r = 0;"
-                "float x = fulltrace(P, vector (0, 0, 2 - 4 * u), c, d, h, n, m, r);"
-                "if (x == d) result = comp(c, 0) + (d < 1e30 ? d * 10 : 0) + 100 * zcomp(n) + 1000 * zcomp(r) + "
-                "10000 * zcomp(h);"),
-            (std::vector<float>{0.5f + 30 + 100 + 40000, 10000 - 1000}));
+  EXPECT_EQ(
+      run("color c = 0; float d = 0; point h = 0, m = 0; vector n = 0, r = 0;"
+          "float x = fulltrace(P, vector (0, 0, 2 - 4 * u), c, d, h, n, m, r);"
+          "if (x == d) result = comp(c, 0) + (d < 1e30 ? d * 10 : 0) + 100 * zcomp(n) + 1000 * zcomp(r) + "
+          "10000 * zcomp(h);"),
+      (std::vector<float>{0.5f + 30 + 100 + 40000, 10000 - 1000}));
 }
 
 TEST_F(Trace, EnvironmentOfRays) {
   scene_.surfaces = {plane_at(4, {0.5f, 0.25f, 1})};
-  EXPECT_EQ(run("color c = environment(\"raytrace\", vector (0, 0, 1 - 2 * u)); result = comp(c, 0) + 10 * comp(c, 1);"),
+  EXPECT_EQ(run("color c = environment(\"raytrace\", vector (0, 0, 1 - 2 * u)); result = comp(c, 0) + 10 * "
+                "comp(c, 1);"),
             (std::vector<float>{3, 0}));
   EXPECT_EQ(scene_.calls.at(0).kind, RayKind::kSpecular);
-  EXPECT_EQ(run("result = float environment(\"raytrace\"[1], vector (0, 0, 1), \"label\", \"l\", \"maxdist\", 5);"), all(0.25f));
+  EXPECT_EQ(
+      run("result = float environment(\"raytrace\"[1], vector (0, 0, 1), \"label\", \"l\", \"maxdist\", 5);"),
+      all(0.25f));
   EXPECT_EQ(scene_.calls.back().label, "l");
   EXPECT_EQ(scene_.rays.back().max_distance, 5);
   scene_.forget();
@@ -178,7 +192,8 @@ TEST_F(Trace, EnvironmentOfRays) {
   EXPECT_GE(least, std::cos(0.1 * std::numbers::pi) - 1e-6);
   EXPECT_LT(least, std::cos(0.08 * std::numbers::pi));
   scene_.forget();
-  run("result = comp(environment(\"raytrace\", vector (0.1, 0, 1), vector (-0.1, 0, 1), vector (0, 0.1, 1), vector (0, -0.1, 1), "
+  run("result = comp(environment(\"raytrace\", vector (0.1, 0, 1), vector (-0.1, 0, 1), vector (0, 0.1, 1), "
+      "vector (0, -0.1, 1), "
       "\"samples\", 16), 0);");
   for (const AskedRay& ray : scene_.rays)
     EXPECT_GE(ray.direction[2], std::cos(std::atan(0.1)) - 1e-5);
@@ -188,8 +203,10 @@ TEST_F(Trace, ShadowOfRaysInALight) {
   TestSurface glass = plane_at(0);
   glass.opacity = {0.25f, 0.5f, 1};
   scene_.surfaces = {glass};
-  auto light = instantiate(machine_, "light l() { illuminate (point (0.5, 0, -3)) Cl = shadow(\"raytrace\", Ps); }");
-  auto sun = instantiate(machine_, "light s() { solar (vector (0, 0, 1), 0) Cl = float shadow(\"raytrace\", Ps); }");
+  auto light =
+      instantiate(machine_, "light l() { illuminate (point (0.5, 0, -3)) Cl = shadow(\"raytrace\", Ps); }");
+  auto sun =
+      instantiate(machine_, "light s() { solar (vector (0, 0, 1), 0) Cl = float shadow(\"raytrace\", Ps); }");
   services_.light_list = {light.get()};
   const std::string loop = "illuminance (P) result = comp(Cl, 0) + 10 * comp(Cl, 1) + 100 * comp(Cl, 2);";
   EXPECT_EQ(run(loop), all(0.25f + 5 + 100));
@@ -262,7 +279,8 @@ TEST_F(Trace, OcclusionPassesItsArguments) {
 }
 
 TEST_F(Trace, IndirectDiffuse) {
-  EXPECT_EQ(run("float o = 7; color c = indirectdiffuse(P, N, 8, \"occlusion\", o); result = comp(c, 1) + 100 * o;"),
+  EXPECT_EQ(run("float o = 7; color c = indirectdiffuse(P, N, 8, \"occlusion\", o); result = comp(c, 1) + "
+                "100 * o;"),
             (std::vector<float>{1 + 25, 2 + 125}));
   const AskedHemisphere& h = scene_.hemispheres.at(0);
   EXPECT_TRUE(h.call.shades && h.wants_radiance && h.wants_occlusion);
@@ -277,7 +295,8 @@ TEST_F(Trace, HemisphereMessages) {
   scene_.map_problem = "there is no sky.tex";
   run("vector i = 0; result = occlusion(P, N, 8, \"pointbased\", 1, \"illuminationdir\", i);");
   EXPECT_EQ(messages(),
-            (std::vector<std::string>{"occlusion: \"illuminationdir\" is not set", "occlusion: there are no point clouds here; rays are traced",
+            (std::vector<std::string>{"occlusion: \"illuminationdir\" is not set",
+                                      "occlusion: there are no point clouds here; rays are traced",
                                       "occlusion: there is no sky.tex"}));
 }
 
@@ -309,8 +328,9 @@ public:
 
 TEST_F(Trace, DiffuseLightOfAMap) {
   SkyServices services;
-  auto surface = instantiate(machine_, "surface s() { Ci = indirectdiffuse(\"sky\", vector (0, 3 - 6 * u, 0)); "
-                                       "Oi = indirectdiffuse(\"\", N); }");
+  auto surface =
+      instantiate(machine_, "surface s() { Ci = indirectdiffuse(\"sky\", vector (0, 3 - 6 * u, 0)); "
+                            "Oi = indirectdiffuse(\"\", N); }");
   Grid grid = square(2, 1);
   ShadingContext context(machine_, services);
   context.shade({.surface = surface.get()}, grid);
@@ -323,8 +343,10 @@ TEST_F(Trace, DiffuseLightOfAMap) {
 }
 
 TEST_F(Trace, RayInfoTellsTheWeight) {
-  auto surface = instantiate(machine_, "surface s(output varying float result = 0;) { color w = 0; float f = 0; "
-                                       "result = rayinfo(\"weight\", w) + rayinfo(\"importance\", f) + 10 * comp(w, 1) + 100 * f; }");
+  auto surface = instantiate(
+      machine_,
+      "surface s(output varying float result = 0;) { color w = 0; float f = 0; "
+      "result = rayinfo(\"weight\", w) + rayinfo(\"importance\", f) + 10 * comp(w, 1) + 100 * f; }");
   Grid grid = square(2, 1);
   const float red[] = {1, 0.5f}, green[] = {0.25f, 1}, blue[] = {0.25f, 0.0f};
   ShadingContext context(machine_, services_);

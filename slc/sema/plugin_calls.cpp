@@ -1,0 +1,50 @@
+// Functions of plug-ins: where they come from, and which arguments they may store to.
+#include "slc/sema/checker.h"
+
+namespace slc {
+
+// `plugin "name";` makes all functions of the library known.
+void Checker::load_plugins() {
+  for (const PluginStatement& statement : unit_.plugins) {
+    std::vector<std::string> trouble;
+    slvm::PluginSource::Functions functions;
+    bool usable = plugins_ && plugins_->load(statement.name, functions, trouble);
+    if (!usable) {
+      slvm::Diagnostic& d = report(diags_, Msg::kNoPlugin, statement.where, statement.name);
+      if (!plugins_) d.notes.push_back({{}, "this program uses no plug-ins"});
+      for (std::string& text : trouble)
+        d.notes.push_back({{}, std::move(text)});
+      continue;
+    }
+    for (auto& function : functions)
+      plugin_functions_[function->name().function].push_back(std::move(function));
+  }
+}
+
+const slvm::PluginSource::Functions& Checker::plugin_functions(const std::string& name, bool search) {
+  slvm::PluginSource::Functions& known = plugin_functions_[name];
+  if (search && known.empty() && plugins_ && !in_library_ && searched_.insert(name).second)
+    known = plugins_->find(name, plugin_trouble_[name]);
+  return known;
+}
+
+// A function that is called by point gets the addresses of its arguments. Unless its prototype says which it
+// stores to, those that are variables of just the parameter's type are taken to be stored to.
+void Checker::let_store(Candidate& chosen, const CallExpr& call) {
+  if (chosen.plugin->name().form != slvm::PluginForm::kPointwise) return;
+  std::vector<bool> stores(call.args.size());
+  bool any = false;
+  for (size_t i = 0; i < call.args.size(); ++i) {
+    const Param p = chosen.param(i);
+    if (p.output) return;
+    const auto* name = as<VariableExpr>(call.args[i].get());
+    const Variable* v = name ? name->variable : nullptr;
+    if (!v || v->type != p.type || (v->array_length == kNotArray) != (p.array_length == kNotArray)) continue;
+    const bool own = v->kind == VariableKind::kLocal || (v->output && v->kind != VariableKind::kGlobal);
+    stores[i] = own && v->type != Type::kString;
+    any |= stores[i];
+  }
+  if (any) chosen.plugin = chosen.plugin->storing_to(stores);
+}
+
+} // namespace slc

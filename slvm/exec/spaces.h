@@ -1,0 +1,15 @@
+// Named coordinate systems, as a running shader knows them.
+#pragma once
+
+#include "slvm/support/matrix.h"
+
+#include <string_view>
+
+namespace slvm {
+
+class ShaderRun;
+
+/// `forward`: the matrix from the space to "current"; else from "current" to it. False: no such space.
+bool named_space(const ShaderRun& run, std::string_view space, bool forward, Matrix4& m);
+
+} // namespace slvm

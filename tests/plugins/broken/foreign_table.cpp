@@ -1,0 +1,4 @@
+// The table of another renderer's header.
+extern "C" {
+__attribute__((visibility("default"))) void* RslPublicFunctions[8];
+}

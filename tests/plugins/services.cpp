@@ -1,0 +1,108 @@
+// What plug-ins ask of the program: storage of three lives, messages, locks, statistics, noise, spaces,
+// attributes; and when their functions are called in a frame, as lines of the file LIFE_LOG.
+#include "RslPlugin.h"
+#include "rx.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+namespace {
+
+void note(const char* what) {
+  const char* name = getenv("LIFE_LOG");
+  FILE* f = name ? fopen(name, "a") : NULL;
+  if (!f) return;
+  fprintf(f, "%s\n", what);
+  fclose(f);
+}
+
+float seconds = 1.5f;
+RixMutex* guard = NULL;
+
+void library_init(RixContext* context) {
+  note("library init");
+  guard = static_cast<RixThreadUtils*>(context->GetRixInterface(k_RixThreadUtils))->NewMutex();
+  static_cast<RixStats*>(context->GetRixInterface(k_RixStats))
+      ->AddTimerStat(&seconds, "services", "time it took");
+}
+void library_cleanup(RixContext*) {
+  note("library cleanup");
+  delete guard;
+}
+void init(RixContext*) {
+  note("init");
+}
+void cleanup(RixContext*) {
+  note("cleanup");
+}
+void begin(RixContext*) {
+  note("begin");
+}
+void end(RixContext*) {
+  note("end");
+}
+void release(RixContext*, void* data) {
+  note(static_cast<const char*>(data));
+}
+
+// How often it was called with this storage: of the grid, the thread, the frame.
+int visits(RslContext* context, int, const RslArg* argv[]) {
+  static int counts[3][1000];
+  static int used[3];
+  RixStorage* storages[] = {context->GetLocalStorage(), context->GetThreadStorage(),
+                            context->GetGlobalStorage()};
+  RslColorIter result(argv[0]);
+  guard->Lock();
+  for (int i = 0; i < 3; ++i) {
+    storages[i]->Lock();
+    int* count = static_cast<int*>(storages[i]->Get("visits"));
+    if (!count) {
+      count = &counts[i][used[i]++];
+      static const char* kNames[] = {"end of grid", "end of thread", "end of frame"};
+      storages[i]->Set("visits", count);
+      storages[i]->Set("note", const_cast<char*>(kNames[i]), release);
+    }
+    (*result)[i] = static_cast<float>(++*count);
+    storages[i]->Unlock();
+  }
+  guard->Unlock();
+  return 0;
+}
+
+int tell(RslContext* context, int, const RslArg*[]) {
+  RixMessages* messages = static_cast<RixMessages*>(context->GetRixInterface(k_RixMessages));
+  messages->Error("no %s left", "cheese");
+  messages->Warning("%d crumbs", 3);
+  messages->Info("a good %s", "year");
+  return context->GetRixInterface(k_RixSamplingPattern) != NULL; // not served
+}
+
+// red: noise, green: x in "shader" space, blue: attribute "user:size" and its count, or -1.
+int ask(RslContext* context, int, const RslArg* argv[]) {
+  RslColorIter result(argv[0]);
+  RslPointIter p(argv[1]);
+  for (unsigned int i = 0; i < argv[0]->NumValues(); ++i, ++result, ++p) {
+    float noise = -1, point[1][3] = {{(*p)[0], (*p)[1], (*p)[2]}};
+    RxNoise(3, *p, 1, &noise);
+    (*result)[0] = noise;
+    (*result)[1] = RxTransformPoints("current", "mine", 1, point, 0) ? -1 : point[0][0];
+    float size[2] = {0, 0};
+    RxInfoType_t type = RxInfoMatrix;
+    int count = 0;
+    const bool found = RxAttribute("user:size", size, sizeof size, &type, &count) == 0 && type == RxInfoFloat;
+    const bool short_buffer = RxAttribute("user:size", size, 1, &type, &count) == sizeof(float);
+    (*result)[2] = found && short_buffer ? size[0] + static_cast<float>(count) : -1;
+  }
+  float unused;
+  if (RxNoise(9, &unused, 1, &unused) != -1) return 3;
+  return RxGetRixContext() == static_cast<RixContext*>(context) ? 0 : 4;
+}
+
+RslFunction functions[] = {{"uniform color sv_visits()", visits, init, cleanup, begin, end},
+                           {"void sv_tell()", tell, NULL, NULL},
+                           {"color sv_ask(point)", ask, NULL, NULL},
+                           {NULL}};
+
+} // namespace
+
+RSLEXPORT RslFunctionTable RslPublicFunctions(functions, library_init, library_cleanup);
