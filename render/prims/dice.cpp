@@ -172,8 +172,10 @@ void Dicer::to_camera(const Matrix4& m, slvm::Type type, float* planes, size_t c
 
 /// The values of a variable at all points.
 void Dicer::fill(size_t index, float* planes) {
+  const Primitive* of = nullptr;
+  PatchVar var;
   for_parts([&](const SurfacePoints& part, size_t first) {
-    const PatchVar& var = part.primitive->vars[index];
+    if (part.primitive != of) var = (of = part.primitive)->vars[index];
     interpolate(var, part.u, part.v, planes + first, grid_.pitch());
     to_camera(part.primitive->state->object_to_camera, var.type, planes + first,
               var.elements ? var.elements : 1, part.u.size() * part.v.size());
@@ -183,10 +185,13 @@ void Dicer::fill(size_t index, float* planes) {
 void Dicer::set_st(size_t index) {
   float* planes[2] = {grid_.varying(Global::ks), grid_.varying(Global::kt)};
   std::vector<float> both;
+  const Primitive* of = nullptr;
+  PatchVar var;
   for_parts([&](const SurfacePoints& part, size_t first) {
+    if (part.primitive != of) var = (of = part.primitive)->vars[index];
     size_t points = part.u.size() * part.v.size();
     both.resize(2 * points);
-    interpolate(part.primitive->vars[index], part.u, part.v, both.data(), points);
+    interpolate(var, part.u, part.v, both.data(), points);
     for (size_t c = 0; c < 2; ++c)
       std::copy_n(both.data() + c * points, points, planes[c] + first);
   });

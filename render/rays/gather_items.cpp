@@ -95,7 +95,8 @@ void RayGeometry::Gatherer::find_visible() {
   taken_.resize(scene_.primitives.size());
   for (uint32_t i = 0; i < scene_.primitives.size(); ++i) {
     const Primitive& p = scene_.primitives[i];
-    if (!p.attributes().rays.seen_by_rays()) continue;
+    // Of the two versions of an object between two levels of detail, rays see the one that most samples do.
+    if (!p.attributes().rays.seen_by_rays() || !p.state->level.has(0.5f)) continue;
     Box box = p.camera_bound({});
     if (!is_usable(box)) continue;
     bounds_[i] = box;
