@@ -5,6 +5,7 @@
 #include "render/display/preview.h"
 #include "render/hider/frame.h"
 #include "render/map_requests.h"
+#include "render/rays/ray_tracer.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
 #include "render/statistics.h"
@@ -40,6 +41,7 @@ struct Renderer::Impl {
   void report_runtime_messages();
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
+  void make_what_rays_see(Scene& scene);
   void flush() {
     if (settings.flush_messages) settings.flush_messages();
   }
@@ -90,11 +92,14 @@ void Renderer::Impl::render(Scene& frame) {
   };
   FrameStatistics statistics;
   auto started = Clock::now();
+  make_what_rays_see(frame);
   BoundShaders shaders(frame, machine, cache, diagnostics);
   flush();
   if (s.progress) s.progress(0);
   TextureMaps textures(texture_settings(frame.options));
   SceneServices services(frame, shaders, textures, settings.print);
+  RayTracer rays(frame, machine, shaders, services);
+  services.set_rays(&rays);
   VmShading shading(machine, shaders, services);
   s.make_content = [&](const Procedural& p, float area) {
     SceneContent content = interpreter.make_content(p, area);
@@ -141,12 +146,34 @@ void Renderer::Impl::render(Scene& frame) {
     statistics.samples_per_pixel = o.xsamples * o.ysamples;
     statistics.threads = thread_count(s.threads);
     auto [files, bytes] = textures.usage();
+    statistics.rays = rays.usage();
     statistics.texture_files = files;
     statistics.texture_bytes = bytes;
     statistics.peak_bytes = peak_memory();
     settings.statistics(statistics);
   }
   flush();
+}
+
+/// Rays come from everywhere: procedurals they can hit are made before the first one is shot.
+void Renderer::Impl::make_what_rays_see(Scene& scene) {
+  Camera camera(scene.options);
+  for (size_t i = 0; i < scene.procedurals.size();) {
+    if (!scene.procedurals[i].attributes->rays.seen_by_rays()) {
+      ++i;
+      continue;
+    }
+    Procedural p = std::move(scene.procedurals[i]);
+    scene.procedurals.erase(scene.procedurals.begin() + static_cast<std::ptrdiff_t>(i));
+    auto seen = seen_bound(p, camera, Vec2(0.0f));
+    SceneContent content = interpreter.make_content(p, seen ? seen->area : 0);
+    auto append = [](auto& to, auto& from) {
+      to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    };
+    append(scene.primitives, content.primitives);
+    append(scene.procedurals, content.procedurals);
+    scene.spaces.insert(content.spaces.begin(), content.spaces.end());
+  }
 }
 
 /// The depth image of Hider "depthmask". False: there is none, or (reported) it cannot be had.

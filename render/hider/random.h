@@ -32,7 +32,11 @@ enum RandomPurpose : uint64_t {
   kLens = 6,
   kLensCells = 7,
   kLevelStrata = 8,
-  kLevel = 9
+  kLevel = 9,
+  kHits = 10,
+  kDisplacedFaces = 11,
+  kRayTime = 12,
+  kHemisphere = 13
 };
 
 } // namespace render

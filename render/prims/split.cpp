@@ -217,7 +217,7 @@ Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
 
 void split_primitive(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
                      std::vector<GridTask>& out) {
-  Splitter(primitive, index, settings, out).run();
+  if (primitive.attributes().rays.camera) Splitter(primitive, index, settings, out).run();
 }
 
 } // namespace render

@@ -30,7 +30,7 @@ struct SplitSettings {
 };
 
 /// Appends the visible pieces of scene primitive `index`, in an order that depends on nothing but the
-/// arguments.
+/// arguments. What the camera does not see (Attribute "visibility" "camera" 0) has none.
 void split_primitive(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
                      std::vector<GridTask>& out);
 

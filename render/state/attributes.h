@@ -4,6 +4,7 @@
 
 #include "render/state/level_of_detail.h"
 #include "render/state/math.h"
+#include "render/state/ray_attributes.h"
 #include "render/state/shader_request.h"
 #include "slvm/value.h"
 
@@ -64,6 +65,7 @@ struct Attributes {
   std::map<std::string, slvm::Value> named;
   /// Attribute "cull": false shades what cannot be seen, too, as baking needs it.
   bool cull_hidden = true, cull_backfacing = true;
+  RayAttributes rays;
   /// Spaces named by ScopedCoordinateSystem, to camera.
   std::map<std::string, Matrix4> scoped_spaces;
 

@@ -196,7 +196,10 @@ void Interpreter::object_instance(const RequestCall& call) {
   auto attributes = attributes_;
   Matrix4 ctm = ctm_;
   MotionMatrices motion = motion_;
+  size_t first = scene_.primitives.size();
   replay(call, *calls);
+  if (scene_.primitives.size() > first)
+    scene_.copies.push_back({calls.get(), first, scene_.primitives.size() - first, ctm});
   attributes_ = attributes;
   ctm_ = ctm;
   motion_ = std::move(motion);

@@ -127,6 +127,7 @@ SceneContent Interpreter::make_content(const Procedural& p, float area) {
   auto spaces = spaces_;
   run(p, area * scene_.options.relative_detail);
   complete_solids();
+  scene_.copies.clear();
   SceneContent content{std::exchange(scene_.primitives, {}), std::exchange(scene_.procedurals, {}), {}};
   for (const auto& [name, space] : spaces_)
     if (auto it = spaces.find(name); it == spaces.end() || it->second != space) content.spaces[name] = space;
