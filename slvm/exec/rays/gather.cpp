@@ -16,6 +16,10 @@ constexpr std::string_view kMapCategory = "environment:";
 /// Numbers that results of a batch may take at once.
 constexpr size_t kMostResults = 1 << 24;
 
+size_t planes_of(const RayOutput& output) {
+  return static_cast<size_t>(components(output.type)) * std::max(output.elements, 1u);
+}
+
 bool hits_something(float distance) {
   return distance >= 0 && distance < std::numeric_limits<float>::infinity();
 }
@@ -104,6 +108,13 @@ void GatherLoop::read_values(const GridCall& call, const CallTokens& tokens) {
     for (auto [prefix, from] : kAtHits)
       if (name.starts_with(prefix)) {
         v.output.from = from;
+        if (planes_of(v.output) * call.run.points > kMostResults) {
+          call.run.report(call.code, MessageSeverity::kError,
+                          fmt::format("\"{}\": arrays of {} elements are too much for {} rays", name,
+                                      v.output.elements, call.run.points),
+                          call.run.points);
+          return;
+        }
         // The machine keeps its strings.
         v.output.name = call.run.state.machine.strings().text(v.token).substr(prefix.size());
         values_.push_back(std::move(v));
@@ -180,7 +191,7 @@ void GatherLoop::make_samples(ShaderRun& run, const MaskWord* in_loop) {
   const std::vector<uint32_t> places = places_in(in_loop);
   size_t planes = 1;
   for (const RayValue& v : values_)
-    planes += static_cast<size_t>(components(v.output.type)) * std::max(v.output.elements, 1u);
+    planes += planes_of(v.output);
   const size_t rays = std::min(kRaysAtOnce, kMostResults / planes);
   const size_t rounds = lanes_leave_ ? 1 : std::max<size_t>(rays / std::max<size_t>(places.size(), 1), 1);
   rays_.clear();
@@ -243,7 +254,7 @@ void GatherLoop::trace(ShaderRun& run, RayCursor* cursors) {
   std::vector<RayOutput> outputs;
   for (RayValue& v : values_) {
     if (v.of != RayValue::Of::kHit) continue;
-    const size_t planes = static_cast<size_t>(components(v.output.type)) * std::max(v.output.elements, 1u);
+    const size_t planes = planes_of(v.output);
     v.data.resize(planes * count);
     v.found.assign(count, 0);
     v.output.data = v.data.data();

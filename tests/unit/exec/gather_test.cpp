@@ -356,6 +356,16 @@ TEST_F(Gather, LoopsOverRaysEndInTime) {
   EXPECT_EQ(machine_->messages().at(0).text, "a loop has not ended after 10 rounds, and is left");
 }
 
+TEST_F(Gather, HugeArraysOfManyPointsAreNotBrought) {
+  surface_ = instantiate(
+      *machine_, source("float big[20000]; gather(\"\", P, vector (0, 0, 1), 0, 1, \"surface:big\", big) ; "
+                        "else result = 1 + big[5];"));
+  EXPECT_EQ(shade(30, 30), all(1, 900));
+  ASSERT_EQ(machine_->messages().size(), 1u);
+  EXPECT_EQ(machine_->messages()[0].text,
+            "\"surface:big\": arrays of 20000 elements are too much for 900 rays");
+}
+
 // ---- traverse
 
 TEST_F(Gather, TraverseMeetsSurfacesInOrder) {
