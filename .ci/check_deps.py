@@ -52,14 +52,9 @@ ALLOWED = {
 }
 # The only folders that may use these libraries.
 OUTSIDE = {
-<<<<<<< HEAD
-    r"embree[34]/": ["render/rays"],
+    r"embree[34]/": ["render/rays", "tests/bench"],
     r"OpenImageIO/": ["render/oiio", "tests/render", "slvm/tools/sltest"],
     r"(?:tiffio|png)\.h": ["render/texture"],
-=======
-    r"embree[34]/": ["render/rays", "tests/bench"],
-    r"OpenImageIO/": ["render", "tests/render", "slvm/tools/sltest"],
->>>>>>> raysrender
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
     r"hwy/": ["slvm/wide", "slvm/kernels", "tests/bench", "tests/unit/kernels"],
