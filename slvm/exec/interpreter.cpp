@@ -164,24 +164,6 @@ void ShaderRun::shoot_from_samples(const GridCall& call, GridOp op) {
   }
 }
 
-// Of hits, the points beside shoot no rays of their own: what those of the hit bring holds for them, too.
-void ShaderRun::shoot_from_samples(const GridCall& call, GridOp op) {
-  const size_t samples = state.grid->samples();
-  entered_.assign(mask.words(), 0);
-  for (size_t i = 0; i < entered_.size(); ++i)
-    entered_[i] = full_mask_word(i, samples);
-  mask.push_if(entered_.data());
-  op(call);
-  mask.pop_if();
-  for (const GridOperand& o : call.operands) {
-    if (!o.store || !o.planes.step) continue;
-    const size_t planes = static_cast<size_t>(components(o.type)) * (o.array ? o.planes.elements : 1);
-    for (size_t c = 0; c < planes; ++c)
-      for (size_t i = samples; i < points; ++i)
-        o.planes.plane(c)[i] = o.planes.plane(c)[i % samples];
-  }
-}
-
 void ShaderRun::run_code(Frame& frame, uint32_t pc) {
   if (state.observer)
     execute_code<true>(frame, mask, pc);

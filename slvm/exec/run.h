@@ -128,7 +128,6 @@ private:
   void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end, bool all);
   void call(const Frame& frame, uint32_t pc, uint16_t import, std::span<const uint32_t> words);
   void shoot_from_samples(const GridCall& call, GridOp op);
-  void shoot_from_samples(const GridCall& call, GridOp op);
   void copy_planes(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words, bool masked);
   void first_active(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words);
   void array_load(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
