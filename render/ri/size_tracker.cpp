@@ -1,7 +1,8 @@
 // Watching requests for what sizes depend on.
 #include "render/ri/size_tracker.h"
 
-#include "render/ri/standard_parameters.h"
+#include "render/ri/further_parameters.h"
+#include "render/rib/parameters.h"
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,14 @@ std::string key(std::string_view category, std::string_view name) {
 } // namespace
 
 SizeTracker::SizeTracker() {
-  for (const StandardParameter& p : standard_parameters())
+  for (const ParameterInfo& p : parameters()) {
+    if (p.name == "*" || p.type == "any") continue;
+    std::string category(request_info(p.request).name);
+    if (p.request == RequestId::kOption || p.request == RequestId::kAttribute)
+      category += " " + std::string(p.category);
+    (void)standard_.declare(key(category, p.name), p.type);
+  }
+  for (const FurtherParameter& p : further_parameters())
     (void)standard_.declare(key(p.category, p.name), p.declaration);
 }
 

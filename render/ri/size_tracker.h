@@ -22,7 +22,7 @@ public:
   /// Declarations to look in after the own ones; they must outlive the tracker.
   void set_more(const Declarations* more) { more_ = more; }
   /// A token in the list of this request: declared by the program, in the token, or a standard parameter of
-  /// the option, attribute or request (standard_parameters.h). The error names the nearest declared name.
+  /// the option, attribute or request (further_parameters.h). The error names the nearest declared name.
   slvm::Result<Declaration> resolve(const RequestCall& call, std::string_view token) const;
 
 private:

@@ -21,7 +21,10 @@ std::string request_with(const ParameterInfo& p) {
   std::string value = "[7]";
   size_t width = p.width().value_or(1);
   if (width == 0)
-    value = p.name == "filter" ? "\"box\"" : p.name == "sense" ? "\"outside\"" : "\"max\"";
+    value = p.name == "filter"            ? "\"box\""
+            : p.name == "sense"           ? "\"outside\""
+            : p.name.ends_with("hitmode") ? "\"primitive\""
+                                          : "\"max\"";
   else if (width > 1)
     value = fmt::format("[{}]", fmt::join(std::vector<int>(width, 7), " "));
   if (p.request == RequestId::kOption || p.request == RequestId::kAttribute)

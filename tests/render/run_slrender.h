@@ -14,6 +14,10 @@
 #include <sys/wait.h>
 #include <vector>
 
+#ifndef SLRENDER_PROGRAM // the build says where it is
+#define SLRENDER_PROGRAM "slrender"
+#endif
+
 namespace anemone::test {
 
 class SlrenderTest : public ::testing::Test {
