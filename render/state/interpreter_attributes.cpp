@@ -15,12 +15,12 @@ Attributes& Interpreter::edit() {
 
 void Interpreter::attribute(const RequestCall& call) {
   const std::string& category = call.text(0);
-  bool known = false;
   for (const Param& p : call.params) {
     auto named = named_value_of(call, category, p);
     if (!named) continue;
     edit().named[category + ":" + named->first] = named->second;
-    if (auto problem = set_ray_attribute(edit().rays, category, named->first, named->second); problem && !problem->empty())
+    if (auto problem = set_ray_attribute(edit().rays, category, named->first, named->second);
+        problem && !problem->empty())
       error_at(p.where, call, fmt::format("\"{}\" {}", named->first, *problem));
     attribute_parameter(call, p, named->first, named->second);
   }
