@@ -244,6 +244,16 @@ bool ShaderRun::take_round(uint32_t pc, size_t lanes) {
   return false;
 }
 
+namespace {
+
+/// Whether the rest of a region is left out, since no lane is on. Strips that derivatives read go on: other lanes look at
+/// values of theirs. But not in a loop, which all lanes have left: another round must not change what it leaves behind.
+bool stops(const Frame& f, const MaskStack& m) {
+  return !m.any() && (!f.runs_idle || m.within_loop());
+}
+
+} // namespace
+
 template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
   const uint32_t* code = program.code.data();
   const Instance::Bound::Import* imports = bound.imports.data();
@@ -297,26 +307,26 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       break;
     case Opcode::k_endif:
       m.pop_if();
-      if (!m.any() && !f.runs_idle) pc = w[0];
+      if (stops(f, m)) pc = w[0];
       break;
     case Opcode::k_uif:
       if (std::bit_cast<uint32_t>(*operand_at(f, w).data) == 0) pc = w[1] + 1 + instruction_words(code[w[1]]);
       break;
     case Opcode::k_uelse: pc = w[0]; break;
     case Opcode::k_uendif:
-      if (!m.any() && !f.runs_idle) pc = w[0];
+      if (stops(f, m)) pc = w[0];
       break;
     case Opcode::k_loop:
     case Opcode::k_block: m.push_loop(); break;
     case Opcode::k_endloop:
       if (next_round(f, m, at))
         pc = w[0];
-      else if (!m.any() && !f.runs_idle)
+      else if (stops(f, m))
         pc = w[1];
       break;
     case Opcode::k_endblock:
       m.pop_loop();
-      if (!m.any() && !f.runs_idle) pc = w[0];
+      if (stops(f, m)) pc = w[0];
       break;
     case Opcode::k_while:
     case Opcode::k_uwhile:
