@@ -16,6 +16,8 @@ UNCHANGING = [
     (r"::\(anonymous namespace\)::k[A-Z]\w*$|::k[A-Z]\w*$", "a constant with pointers in it, or made on first use"),
     (r"^(?:std|boost|fmt|hwy|tbb|flatbuffers|__gnu)|^_ZTI|^typeinfo|^vtable|^VTT|^DW\.ref|\bboost::", "not ours"),
     (r"::crash_point$", "where a signal handler, which gets no argument, finds its thread's way back"),
+    (r"^RI_[A-Z]+$|^Ri\w+Basis$|^RiLastError$", "variables that ri.h declares, as the RISpec has them"),
+    (r"render::ri::.*process\(\)::state$", "what the functions of ri.h, being C, share"),
     (r"::wave_mutex$", "guards what Boost.Wave asks of the C library"),
     (r"^__(?:sancov|asan|ubsan|tsan|odr)|^\.L|^\$", "made by the compiler"),
 ]

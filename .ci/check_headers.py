@@ -17,6 +17,8 @@ def flags_by_folder(build):
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as f:
         for entry in json.load(f):
             path = os.path.relpath(entry["file"], tree.ROOT)
+            if path.endswith(".c"):
+                continue
             words = shlex.split(entry["command"])
             words = words[next(i for i, w in enumerate(words) if re.search(r"(\+\+|clang)[-\d.]*$", w)):]
             kept = [w for w in words if re.match(r"-[IDWf]|-std|-isystem", w) and not w.startswith("-fsanitize")]

@@ -67,6 +67,16 @@ function(sl_tool name)
   add_dependencies(tools ${name})
 endfunction()
 
+# sl_module(NAME sources... LIBS libs...): NAME.so beside the programs, which they load when they need it; installed.
+function(sl_module name)
+  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS})
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE anemone_flags ${arg_LIBS})
+  install(TARGETS ${name} LIBRARY DESTINATION lib/anemone)
+endfunction()
+
 # sl_unit_test(NAME sources... LIBS libs...): a GoogleTest binary whose cases CTest lists one by one.
 function(sl_unit_test name)
   cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})

@@ -1,5 +1,5 @@
 # What `cmake --install` puts where, beside programs and shaders: the libraries with their headers, CMake packages
-# `slvm` and `slc`, RSL headers. Included last, when all targets exist.
+# `slvm`, `slc` and `ri`, RSL headers. Included last, when all targets exist.
 include(CMakePackageConfigHelpers)
 
 # sl_package(NAME targets...): exports targets as NAME::..., with NAME-config.cmake from cmake/.
@@ -21,6 +21,10 @@ endfunction()
 
 sl_package(slvm slvm slvm_plugin slvm_ir slvm_kernels slvm_wide slvm_format slvm_support)
 sl_package(slc slc)
+if(ANEMONE_RENDER)
+  sl_package(ri ri render_setup render render_texture render_rib)
+  install(FILES ${PROJECT_SOURCE_DIR}/render/ri/ri.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/anemone)
+endif()
 
 install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}\")
 set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}/anemone\")")

@@ -41,6 +41,34 @@ std::string instructions_page() {
   return out;
 }
 
+std::string parameters_section() {
+  struct Parameter {
+    std::string_view request, category, name, type, standard, lacks, doc;
+  };
+  constexpr Parameter kParameters[] = {
+#define PARAMETER(request, category, name, type, standard, lacks, doc)                                       \
+  {#request, category, name, type, standard, lacks, doc},
+#include "render/rib/parameters.def"
+#undef PARAMETER
+  };
+  std::string out =
+      "\n## Named values\n\n"
+      "Of `Option`, `Attribute`, `Hider`, `Display`, `DisplayChannel` and `GeometricApproximation`. What "
+      "has no effect is said\n"
+      "once, with the reason, unless it is set to what is done anyway (the default). Shaders can read "
+      "all values of options\n"
+      "and attributes.\n\n| name | type | default | |\n|---|---|---|---|\n";
+  for (const Parameter& p : kParameters) {
+    std::string category = p.category.empty() ? "" : fmt::format(" \"{}\"", p.category);
+    std::string name = p.name == "*" ? "" : fmt::format(" \"{}\"", p.name);
+    std::string text(p.doc);
+    if (!p.lacks.empty()) text += fmt::format("{}no effect: {}", text.empty() ? "" : "; ", p.lacks);
+    out += fmt::format("| `{}{}{}` | {} | {} | {} |\n", p.request, category, name, p.type, p.standard,
+                       escape(text));
+  }
+  return out;
+}
+
 std::string requests_page() {
   struct Request {
     std::string_view name, arguments, where, lacks, doc;
@@ -62,7 +90,7 @@ std::string requests_page() {
     else
       lacking += fmt::format("| `{}` | {} | {} |\n", r.name, escape(r.lacks), escape(r.doc));
   }
-  return out + lacking;
+  return out + lacking + parameters_section();
 }
 
 bool write(const std::string& path, const std::string& text) {

@@ -164,7 +164,8 @@ std::string function_entry(std::string_view name) {
   std::map<std::string_view, std::vector<std::string>> by_doc;
   std::vector<std::string_view> order;
   std::set<std::string_view> token_sets;
-  bool pending = false;
+  std::vector<std::string> pending; // declarations of what only compiles
+  size_t rows = 0;
   uint32_t flags = 0;
   double most = -1; // greatest error
   for (ShadeopId id : shadeop_overloads(name)) {
@@ -173,7 +174,8 @@ std::string function_entry(std::string_view name) {
     if (!by_doc.contains(row.doc)) order.push_back(row.doc);
     by_doc[row.doc].push_back(declaration(row));
     if (!row.signature.token_set.empty()) token_sets.insert(row.signature.token_set);
-    pending |= row.kind == ShadeopKind::kPending;
+    ++rows;
+    if (row.kind == ShadeopKind::kPending) pending.push_back(declaration(row));
     flags |= row.flags;
     most = std::max(most, row.ulps);
   }
@@ -186,7 +188,12 @@ std::string function_entry(std::string_view name) {
   if (flags & kInIlluminance) out += "Only inside an illuminance loop.\n\n";
   if (flags & kSurfaceOnly) out += "Not in light shaders.\n\n";
   if (flags & kDerivative) out += "Looks at neighbouring points of the grid.\n\n";
-  if (pending)
+  if (!pending.empty() && pending.size() < rows)
+    out += fmt::format("This form compiles; binding a shader that calls it is an error, because this version "
+                       "cannot carry it "
+                       "out:\n\n{}\n",
+                       declarations(pending));
+  else if (!pending.empty())
     out += "*Compiles; binding a shader that calls it is an error, because this version cannot carry it "
            "out.*\n\n";
   for (std::string_view set : token_sets)

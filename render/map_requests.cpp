@@ -41,6 +41,9 @@ std::string make_map(const RequestCall& call, const Options& options) {
   case RequestId::kMakeTexture:
     if (std::string why = settings_of(call, 2, 4, settings); !why.empty()) return why;
     return make_texture(locate(call.text(0), options), call.text(1), settings);
+  case RequestId::kMakeBump:
+    if (std::string why = settings_of(call, 2, 4, settings); !why.empty()) return why;
+    return make_bump(locate(call.text(0), options), call.text(1), settings);
   case RequestId::kMakeLatLongEnvironment:
     settings.swrap = "periodic";
     settings.twrap = "clamp";

@@ -1,4 +1,5 @@
-// MakeTexture, MakeLatLongEnvironment, MakeCubeFaceEnvironment, MakeShadow: from the request to the file.
+// MakeTexture, MakeBump, MakeLatLongEnvironment, MakeCubeFaceEnvironment, MakeShadow: from the request to the
+// file.
 #pragma once
 
 #include "render/rib/request.h"

@@ -2,8 +2,10 @@
 #include "render/renderer.h"
 
 #include "render/display/output.h"
+#include "render/display/preview.h"
 #include "render/hider/frame.h"
 #include "render/map_requests.h"
+#include "render/rays/ray_tracer.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
 #include "render/statistics.h"
@@ -14,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -29,6 +32,8 @@ struct Renderer::Impl {
     interpreter.override_options = settings.override_options;
     interpreter.allow_programs = settings.allow_programs;
     interpreter.program_limits.seconds = settings.program_seconds;
+    interpreter.procedural_folders = settings.procedural_folders;
+    interpreter.around_plug_in = settings.around_plug_in;
     interpreter.make_map = make_map;
   }
 
@@ -36,6 +41,7 @@ struct Renderer::Impl {
   void report_runtime_messages();
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
+  void make_what_rays_see(Scene& scene);
   void flush() {
     if (settings.flush_messages) settings.flush_messages();
   }
@@ -57,18 +63,27 @@ TextureMaps::Settings texture_settings(const Options& options) {
   TextureMaps::Settings s;
   if (auto it = options.search_paths.find("texture"); it != options.search_paths.end())
     s.folders = it->second;
-  if (auto it = options.named.find("shadow:bias");
-      it != options.named.end() && it->second.numbers.size() == 1)
-    s.shadow_bias = it->second.numbers[0];
+  auto named = [&](const char* name, float otherwise) {
+    auto it = options.named.find(name);
+    return it == options.named.end() ? otherwise : it->second.numbers[0];
+  };
+  s.shadow_bias = named("shadow:bias", s.shadow_bias);
+  // bias0 and bias1 are the ends of a range.
+  if (options.named.contains("shadow:bias0") && options.named.contains("shadow:bias1")) {
+    s.shadow_bias = named("shadow:bias0", 0);
+    s.shadow_bias_spread = named("shadow:bias1", 0) - s.shadow_bias;
+  }
+  s.memory_megabytes = options.texture_megabytes;
   return s;
 }
 
 } // namespace
 
 void Renderer::Impl::render(Scene& frame) {
+  if (frame.options.no_image) return;
   if (frame.options.displays.empty()) frame.options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
   FrameSettings s;
-  s.threads = settings.threads;
+  s.threads = settings.threads > 0 ? settings.threads : frame.options.threads;
   s.aovs = display_aovs(frame.options, diagnostics);
   s.progress = settings.progress;
   using Clock = std::chrono::steady_clock;
@@ -77,11 +92,14 @@ void Renderer::Impl::render(Scene& frame) {
   };
   FrameStatistics statistics;
   auto started = Clock::now();
+  make_what_rays_see(frame);
   BoundShaders shaders(frame, machine, cache, diagnostics);
   flush();
   if (s.progress) s.progress(0);
   TextureMaps textures(texture_settings(frame.options));
   SceneServices services(frame, shaders, textures, settings.print);
+  RayTracer rays(frame, machine, shaders, services);
+  services.set_rays(&rays);
   VmShading shading(machine, shaders, services);
   s.make_content = [&](const Procedural& p, float area) {
     SceneContent content = interpreter.make_content(p, area);
@@ -94,8 +112,16 @@ void Renderer::Impl::render(Scene& frame) {
   FrameReport& report = statistics.report;
   statistics.bind_seconds = seconds_since(started);
   started = Clock::now();
+  std::optional<Preview> preview;
+  if (!settings.preview.empty()) {
+    preview.emplace(frame.options, s.aovs, settings.preview);
+    s.finished = [&](const Image& pixels, const PixelRect& rect) { preview->add(pixels, rect); };
+  }
   Image image = render_frame(frame, shading, s, report);
   statistics.render_seconds = seconds_since(started);
+  if (preview)
+    if (std::string why = preview->finish(); !why.empty())
+      diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
   for (const auto& [wanted, used] : textures.replaced())
     if (replaced.insert(wanted).second)
@@ -120,12 +146,34 @@ void Renderer::Impl::render(Scene& frame) {
     statistics.samples_per_pixel = o.xsamples * o.ysamples;
     statistics.threads = thread_count(s.threads);
     auto [files, bytes] = textures.usage();
+    statistics.rays = rays.usage();
     statistics.texture_files = files;
     statistics.texture_bytes = bytes;
     statistics.peak_bytes = peak_memory();
     settings.statistics(statistics);
   }
   flush();
+}
+
+/// Rays come from everywhere: procedurals they can hit are made before the first one is shot.
+void Renderer::Impl::make_what_rays_see(Scene& scene) {
+  Camera camera(scene.options);
+  for (size_t i = 0; i < scene.procedurals.size();) {
+    if (!scene.procedurals[i].attributes->rays.seen_by_rays()) {
+      ++i;
+      continue;
+    }
+    Procedural p = std::move(scene.procedurals[i]);
+    scene.procedurals.erase(scene.procedurals.begin() + static_cast<std::ptrdiff_t>(i));
+    auto seen = seen_bound(p, camera, Vec2(0.0f));
+    SceneContent content = interpreter.make_content(p, seen ? seen->area : 0);
+    auto append = [](auto& to, auto& from) {
+      to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    };
+    append(scene.primitives, content.primitives);
+    append(scene.procedurals, content.procedurals);
+    scene.spaces.insert(content.spaces.begin(), content.spaces.end());
+  }
 }
 
 /// The depth image of Hider "depthmask". False: there is none, or (reported) it cannot be had.
@@ -180,6 +228,9 @@ void Renderer::read_text(std::string name, std::string text) {
 }
 void Renderer::finish() {
   impl_->interpreter.finish();
+}
+Interpreter& Renderer::interpreter() {
+  return impl_->interpreter;
 }
 Options& Renderer::options() {
   return impl_->interpreter.options();

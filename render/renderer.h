@@ -21,6 +21,7 @@
 namespace render {
 
 struct FrameStatistics; // render/statistics.h
+class Interpreter;      // render/state/interpreter.h
 
 struct RendererSettings {
   int threads = 0; ///< 0: all processors
@@ -30,11 +31,17 @@ struct RendererSettings {
   double program_seconds = 60;
   /// Folders of plug-ins that shaders may call (slvm::MachineOptions::plugin_folders). Scenes add none.
   std::vector<std::string> plugin_folders;
+  /// The only folders plug-ins that make geometry are loaded from (Procedural "DynamicLoad"), and what is called in place
+  /// of their functions: see Interpreter::around_plug_in.
+  std::vector<std::string> procedural_folders;
+  std::function<void(slvm::SourceRange procedural, const std::function<void()>& functions)> around_plug_in;
   ShaderLoader shader_loader = load_compiled_shader;
   /// Called with each frame's options at WorldBegin, after the file's own: command-line overrides.
   std::function<void(Options&)> override_options;
   /// Called before and during a frame with the finished fraction; never from two threads at once.
   std::function<void(double)> progress;
+  /// A PNG file that shows what is finished of a frame while it is rendered (display/preview.h). Empty: none.
+  std::string preview;
   /// Called before each frame is rendered and after it is written: a chance to show messages early.
   std::function<void()> flush_messages;
   /// Called after each frame with what it cost.
@@ -60,6 +67,8 @@ public:
 
   /// Starting values.
   Options& options();
+  /// Takes requests that do not come from a file.
+  Interpreter& interpreter();
   /// The search path of a kind ("shader", "archive"...) until a file sets one, and what "@" stands for in it.
   void set_standard_path(const std::string& kind, std::vector<std::string> directories);
 

@@ -45,6 +45,13 @@ std::string format_text(const FrameStatistics& s) {
   out += fmt::format("  primitives      {:10}\n", r.primitives);
   out += fmt::format("  grids           {:10}  {} shaded\n", r.grids, r.shaded_grids);
   out += fmt::format("  micropolygons   {:10}  {} points shaded\n", r.micropolygons, r.shaded_points);
+  if (const RayUsage& y = s.rays; y.all() > 0) {
+    out += fmt::format("  rays            {:10}  {} of them for shadows, {} for {} hemispheres\n", y.all(),
+                       y.shadow_rays, y.hemisphere_rays, y.hemispheres);
+    out += fmt::format("  ray hits        {:10}  points shaded in {} grids; {} faces made, {:.1f} MB\n",
+                       y.hit_points, y.hit_grids, y.geometry.faces,
+                       static_cast<double>(y.geometry.bytes) / kMega);
+  }
   out += fmt::format("  textures        {:10}  files, {:.1f} MB of tiles\n", s.texture_files,
                      static_cast<double>(s.texture_bytes) / kMega);
   out += fmt::format("  memory          {:10.1f}  MB at most\n", static_cast<double>(s.peak_bytes) / kMega);
@@ -60,15 +67,18 @@ std::string format_json(const FrameStatistics& s) {
   for (const auto& [name, cost] : sorted(r))
     shaders += fmt::format("{}{{\"name\":{},\"seconds\":{:.6f},\"grids\":{},\"points\":{}}}",
                            shaders.empty() ? "" : ",", quoted(name), cost.seconds, cost.grids, cost.points);
-  return fmt::format("{{\"version\":{},\"frame\":{},\"width\":{},\"height\":{},\"samples_per_pixel\":{},"
-                     "\"threads\":{},\"seconds\":{{\"bind\":{:.6f},\"render\":{:.6f},\"write\":{:.6f}}},"
-                     "\"primitives\":{},\"grids\":{},\"shaded_grids\":{},\"micropolygons\":{},"
-                     "\"shaded_points\":{},\"texture_files\":{},\"texture_bytes\":{},\"peak_bytes\":{},"
-                     "\"shaders\":[{}]}}",
-                     FrameStatistics::kVersion, s.frame, s.width, s.height, s.samples_per_pixel, s.threads,
-                     s.bind_seconds, s.render_seconds, s.write_seconds, r.primitives, r.grids, r.shaded_grids,
-                     r.micropolygons, r.shaded_points, s.texture_files, s.texture_bytes, s.peak_bytes,
-                     shaders);
+  return fmt::format(
+      "{{\"version\":{},\"frame\":{},\"width\":{},\"height\":{},\"samples_per_pixel\":{},"
+      "\"threads\":{},\"seconds\":{{\"bind\":{:.6f},\"render\":{:.6f},\"write\":{:.6f}}},"
+      "\"primitives\":{},\"grids\":{},\"shaded_grids\":{},\"micropolygons\":{},"
+      "\"shaded_points\":{},\"texture_files\":{},\"texture_bytes\":{},\"peak_bytes\":{},"
+      "\"rays\":{{\"all\":{},\"shadow\":{},\"hemisphere\":{},\"hemispheres\":{},\"hit_grids\":{},"
+      "\"hit_points\":{},\"faces\":{},\"bytes\":{}}},\"shaders\":[{}]}}",
+      FrameStatistics::kVersion, s.frame, s.width, s.height, s.samples_per_pixel, s.threads, s.bind_seconds,
+      s.render_seconds, s.write_seconds, r.primitives, r.grids, r.shaded_grids, r.micropolygons,
+      r.shaded_points, s.texture_files, s.texture_bytes, s.peak_bytes, s.rays.all(), s.rays.shadow_rays,
+      s.rays.hemisphere_rays, s.rays.hemispheres, s.rays.hit_grids, s.rays.hit_points, s.rays.geometry.faces,
+      s.rays.geometry.bytes, shaders);
 }
 
 long long peak_memory() {

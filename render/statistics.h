@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/hider/frame.h"
+#include "render/rays/ray_usage.h"
 
 #include <string>
 
@@ -15,6 +16,7 @@ struct FrameStatistics {
   int width = 0, height = 0, samples_per_pixel = 0, threads = 0;
   FrameReport report;
   double bind_seconds = 0, render_seconds = 0, write_seconds = 0;
+  RayUsage rays;
   long long texture_files = 0, texture_bytes = 0; ///< files read, memory of their tiles
   long long peak_bytes = 0;                       ///< most memory the process had so far
 };

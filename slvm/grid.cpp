@@ -95,6 +95,8 @@ void Grid::reset(int nu, int nv) {
     p = {};
   primvars_.clear();
   ray = {};
+  lattice = Lattice::kRows;
+  std::fill_n(footprint, 4, nullptr);
   for (Block& b : blocks_)
     b.used = 0;
 }

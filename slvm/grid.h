@@ -10,6 +10,7 @@
 #include "slvm/support/matrix.h"
 #include "slvm/value.h"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <span>
@@ -35,6 +36,20 @@ struct RayFacts {
   std::string label;
   float depth = 0; ///< rays before this one, as many of each kind as follow
   float specular_depth = 0, diffuse_depth = 0, shadow_depth = 0;
+  /// What specular_depth and diffuse_depth may become, by the objects whose rays led here.
+  float most_specular_depth = std::numeric_limits<float>::infinity(),
+        most_diffuse_depth = std::numeric_limits<float>::infinity();
+  /// Part of the picture that each point's ray makes, at most; null: 1. The renderer's own memory.
+  const float* weight[3] = {};
+};
+
+/// How the points of a grid lie to each other.
+enum class Lattice : uint8_t {
+  kRows, ///< a lattice: neighbours in the grid are neighbours on the surface
+  /// nu points that have nothing to do with each other: the hits of rays. They are row 0. Where shaders
+  /// differentiate, nv is 3: rows 1 and 2 hold, for each, a point beside it, one step along u (du, varying)
+  /// and one along v.
+  kHits,
 };
 
 class Grid {
@@ -62,6 +77,15 @@ public:
 
   /// Frees all variables and changes the size; memory is kept for reuse.
   void reset(int nu, int nv);
+
+  /// The points that count: of hits, row 0.
+  size_t samples() const { return lattice == Lattice::kHits ? static_cast<size_t>(nu_) : points(); }
+
+  Lattice lattice = Lattice::kRows;
+  /// Of hits, nu floats each, the renderer's own memory: how many steps along u and along v a ray's footprint
+  /// reaches in the one direction, then in the other one; texture lookups filter over it. Null: one step
+  /// along u, one along v.
+  const float* footprint[4] = {};
 
   /// What rayinfo() tells.
   RayFacts ray;

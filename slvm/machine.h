@@ -169,6 +169,9 @@ public:
   void displace(const ShaderSet&, Grid&);
   /// The rest of shade(), after displace() on the same grid.
   void shade_displaced(const ShaderSet&, Grid&);
+  /// The two halves of that, the second one on the same grid.
+  void shade_surface(const ShaderSet&, Grid&);
+  void shade_atmosphere();
   /// One shader of any kind by itself (imagers; lights in tests: set Ps, read Cl and L).
   void run(const Instance&, Grid&);
 

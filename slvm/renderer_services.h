@@ -7,6 +7,7 @@
 #pragma once
 
 #include "slvm/grid.h"
+#include "slvm/rays.h"
 #include "slvm/textures.h"
 
 #include <span>
@@ -66,6 +67,9 @@ public:
 
   /// Who looks up textures; null: nobody, and every lookup is a run-time message.
   virtual TextureServices* textures() { return nullptr; }
+
+  /// Who traces rays; null: nobody, and rays hit nothing, with a run-time message.
+  virtual RayServices* rays() { return nullptr; }
 
   /// Text of printf, in order within one grid, as it is printed. Warnings and errors of running shaders go
   /// another way: MachineOptions::on_message.

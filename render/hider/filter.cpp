@@ -41,7 +41,8 @@ float cubic(float x, float b, float c) {
 } // namespace
 
 bool is_separable(FilterKind kind) {
-  return kind != FilterKind::kCatmullRom && kind != FilterKind::kDisk && kind != FilterKind::kBessel;
+  return kind != FilterKind::kCatmullRom && kind != FilterKind::kDisk && kind != FilterKind::kBessel &&
+         kind != FilterKind::kFunction;
 }
 
 float axis_weight(FilterKind kind, float x, float width) {
@@ -65,6 +66,8 @@ float filter_weight(const PixelFilter& filter, float x, float y) {
     return axis_weight(filter.kind, x, filter.xwidth) * axis_weight(filter.kind, y, filter.ywidth);
   float fx = 2 * x / filter.xwidth, fy = 2 * y / filter.ywidth;
   if (std::abs(fx) > 1 || std::abs(fy) > 1) return 0;
+  if (filter.kind == FilterKind::kFunction)
+    return filter.function ? filter.function(x, y, filter.xwidth, filter.ywidth) : 1.0f;
   float r = std::sqrt(x * x + y * y);
   if (filter.kind == FilterKind::kCatmullRom) return catmull_rom(r);
   if (fx * fx + fy * fy > 1) return 0;

@@ -44,8 +44,14 @@ public:
     sampling_.moving = std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) {
       return !p.state->motion.empty() || !p.deformation.empty();
     });
-    // What procedurals make may move.
-    if (!scene.procedurals.empty() && options_.shutter_close > options_.shutter_open) sampling_.moving = true;
+    sampling_.size.levels = std::any_of(scene.primitives.begin(), scene.primitives.end(),
+                                        [](const Primitive& p) { return !p.state->level.whole(); });
+    // What procedurals make may move, or go over into another level.
+    if (!scene.procedurals.empty()) {
+      if (options_.shutter_close > options_.shutter_open) sampling_.moving = true;
+      sampling_.size.levels = true;
+    }
+    sampling_.moving = sampling_.moving && options_.sample_motion;
     sampling_.camera = &camera_;
     if (camera_.has_lens()) sampling_.lens = &camera_;
     sampling_.mask = settings.mask;
@@ -74,7 +80,13 @@ private:
     return {r.x0 * x, r.y0 * y, r.x1 * x, r.y1 * y};
   }
   void expose(const PixelRect& rect);
-  void run_imager(const PixelRect& rect, Worker& worker);
+  void expose(const PixelRect& rect, int first, int count, const std::array<float, 2>& exposure);
+  /// A picture, by the places of its first colour, opacity and alpha in a pixel.
+  struct Picture {
+    int Ci, Oi, alpha;
+  };
+  std::vector<Picture> pictures() const;
+  void run_imager(const PixelRect& rect, const Picture& picture, Worker& worker);
   static void count(const Primitive& primitive, const slvm::Grid& grid,
                     std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
@@ -144,6 +156,7 @@ void FrameRenderer::split_all() {
   s.raster_max = {static_cast<float>(crop.x1) + mx, static_cast<float>(crop.y1) + my};
   s.grid_size = options_.grid_size;
   s.eye_splits = options_.eye_splits;
+  s.motion = options_.sample_motion;
   // Chunks of primitives in parallel, joined in order: task numbers never depend on the threads.
   constexpr size_t kChunk = 64;
   size_t count = scene_.primitives.size(), chunks = (count + kChunk - 1) / kChunk;
@@ -152,12 +165,17 @@ void FrameRenderer::split_all() {
     for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
       split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
   });
+  size_t tasks = 0;
+  for (const auto& part : parts)
+    tasks += part.size();
+  batch_.tasks.reserve(tasks);
   for (auto& part : parts) {
     batch_.tasks.insert(batch_.tasks.end(), part.begin(), part.end());
     part = {};
   }
   batch_.primitives = scene_.primitives;
   batch_.slots = std::make_unique<GridSlot[]>(batch_.tasks.size());
+  if (scene_.solids > 0) batch_.measure_solids(camera_);
 }
 
 void FrameRenderer::make_buckets() {
@@ -181,7 +199,9 @@ void FrameRenderer::make_buckets() {
   tbb::parallel_for(size_t{0}, buckets_.size(), [&](size_t b) {
     std::sort(buckets_[b].tasks.begin(), buckets_[b].tasks.end(), [&](uint32_t x, uint32_t y) {
       const GridTask &s = batch_.tasks[x], &t = batch_.tasks[y];
-      return s.zmin != t.zmin ? s.zmin < t.zmin : x < y;
+      if (s.zmin != t.zmin) return s.zmin < t.zmin;
+      uint32_t a = batch_.solid_number(x), c = batch_.solid_number(y);
+      return a != c ? a < c : x < y;
     });
   });
 }
@@ -213,7 +233,10 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
   samples.finish(image_);
   PixelRect rect = image_rect(pixels);
   expose(rect);
-  if (options_.imager) run_imager(rect, worker);
+  if (options_.imager)
+    for (const Picture& p : pictures())
+      run_imager(rect, p, worker);
+  if (settings_.finished) settings_.finished(image_, rect);
 }
 
 /// The task's grid, shaded now if no other bucket has done it. Another thread at it is waited for: it needs
@@ -259,12 +282,15 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
   dice(primitive, task, id, context, grid);
   auto started = std::chrono::steady_clock::now();
   std::optional<GridOutline> outline;
-  if (!primitive.geometry->ruled())
-    outline = find_outline(grid, task.rect, camera_, std::sqrt(primitive.attributes().shading_rate));
+  if (!primitive.geometry->ruled() && primitive.attributes().stitch)
+    outline = find_outline(grid, task.rect, camera_, task.step);
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
   std::vector<float> times = motion_times(primitive);
   const Attributes& a = primitive.attributes();
-  if (times.empty() && a.sides == 1 && a.cull_backfacing && faces_away(grid, camera_)) return nullptr;
+  const SolidTree* solid = primitive.state->solid.get();
+  if (times.empty() && a.sides == 1 && a.cull_backfacing && a.back_face_tolerance == 0 && !solid &&
+      faces_away(grid, camera_))
+    return nullptr;
   std::vector<slvm::Grid> moved;
   for (size_t i = 1; i < times.size(); ++i) {
     Primitive there = primitive_at(primitive, times[i]);
@@ -277,23 +303,52 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
   count(primitive, grid, started, worker.report);
   auto out = std::make_unique<ShadedGrid>(make_shaded_grid(
       primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
-  for (size_t i = 0; i < moved.size(); ++i)
+  for (size_t i = 0; i < moved.size() && options_.sample_motion; ++i)
     add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
+  if (solid) out->cut_near = batch.solids.at(solid).cut_near[primitive.state->solid_primitive];
   worker.report.bad_colours += out->bad_colours;
   return out;
 }
 
 void FrameRenderer::expose(const PixelRect& rect) {
-  if (options_.gain == 1 && options_.gamma == 1) return;
+  expose(rect, Image::kCi, 3, {options_.gain, options_.gamma});
+  using Source = AovChannel::Source;
+  for (const AovChannel& a : settings_.aovs)
+    if (a.source == Source::kColor || a.source == Source::kVariable)
+      expose(rect, Image::kAov + a.first, a.components, a.exposure);
+}
+
+void FrameRenderer::expose(const PixelRect& rect, int first, int count,
+                           const std::array<float, 2>& exposure) {
+  auto [gain, gamma] = exposure;
+  if (gain == 1 && gamma == 1) return;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x) {
-      float* p = image_.pixel(x, y);
-      for (int c = 0; c < 3; ++c)
-        p[Image::kCi + c] = exposed(p[Image::kCi + c], options_.gain, options_.gamma);
+      float* p = image_.pixel(x, y) + first;
+      for (int c = 0; c < count; ++c)
+        p[c] = exposed(p[c], gain, gamma);
     }
 }
 
-void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
+/// The standard one, and those with a filter or an exposure of their own (channels.h sees to it that they are
+/// complete).
+std::vector<FrameRenderer::Picture> FrameRenderer::pictures() const {
+  std::vector<Picture> out{{Image::kCi, Image::kOi, Image::kAlpha}};
+  using Source = AovChannel::Source;
+  auto place = [&](const AovChannel& of, Source source) {
+    for (const AovChannel& a : settings_.aovs)
+      if (a.source == source && a.exposure == of.exposure && a.filter == of.filter)
+        return Image::kAov + a.first;
+    return -1;
+  };
+  for (const AovChannel& a : settings_.aovs)
+    if (a.source == Source::kColor)
+      out.push_back({Image::kAov + a.first, place(a, Source::kOpacity), place(a, Source::kAlpha)});
+  std::erase_if(out, [](const Picture& p) { return p.Oi < 0 || p.alpha < 0; });
+  return out;
+}
+
+void FrameRenderer::run_imager(const PixelRect& rect, const Picture& picture, Worker& worker) {
   slvm::Grid& grid = worker.grid;
   grid.reset(rect.width(), rect.height());
   grid.derivatives = true;
@@ -311,11 +366,11 @@ void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
       planes[0][k] = static_cast<float>(x) + 0.5f;
       planes[0][pitch + k] = static_cast<float>(y) + 0.5f;
       planes[0][2 * pitch + k] = 0;
-      for (size_t c = 0; c < 3; ++c) {
-        planes[1][c * pitch + k] = p[Image::kCi + c];
-        planes[2][c * pitch + k] = p[Image::kOi + c];
+      for (int c = 0; c < 3; ++c) {
+        planes[1][static_cast<size_t>(c) * pitch + k] = p[picture.Ci + c];
+        planes[2][static_cast<size_t>(c) * pitch + k] = p[picture.Oi + c];
       }
-      planes[3][k] = p[Image::kAlpha];
+      planes[3][k] = p[picture.alpha];
       planes[4][k] = planes[0][k] / static_cast<float>(options_.xres);
       planes[5][k] = planes[0][pitch + k] / static_cast<float>(options_.yres);
     }
@@ -326,11 +381,11 @@ void FrameRenderer::run_imager(const PixelRect& rect, Worker& worker) {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x, ++k) {
       float* p = image_.pixel(x, y);
-      for (size_t c = 0; c < 3; ++c) {
-        p[Image::kCi + c] = Ci.get(c, k);
-        p[Image::kOi + c] = Oi.get(c, k);
+      for (int c = 0; c < 3; ++c) {
+        p[picture.Ci + c] = Ci.get(static_cast<size_t>(c), k);
+        p[picture.Oi + c] = Oi.get(static_cast<size_t>(c), k);
       }
-      p[Image::kAlpha] = alpha.get(0, k);
+      p[picture.alpha] = alpha.get(0, k);
     }
 }
 

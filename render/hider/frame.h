@@ -24,6 +24,9 @@ struct FrameSettings {
   ContentMaker make_content;
   /// Called with the finished fraction, from any thread but never from two at once.
   std::function<void(double)> progress;
+  /// Called with the pixels of a bucket when they are finished, imager included; from several threads at
+  /// once.
+  std::function<void(const Image&, const PixelRect&)> finished;
 };
 
 /// What the grids of one surface shader cost, displacement and lights included, on all threads together.

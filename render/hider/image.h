@@ -4,6 +4,7 @@
 #include "render/state/camera.h"
 #include "render/state/options.h"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -19,7 +20,7 @@ inline float exposed(float c, float gain, float gamma) {
 }
 
 /// What a Display asks for besides the standard channels: a shader variable, seen on the nearest surface, or
-/// the composited picture once more, with a filter of its own.
+/// the composited picture once more, with a filter or an exposure of its own.
 struct AovChannel {
   enum class Source : uint8_t { kVariable, kColor, kOpacity, kAlpha, kDepth };
 
@@ -28,6 +29,9 @@ struct AovChannel {
   int first = 0; ///< its first float among the AOV floats of a pixel
   Source source = Source::kVariable;
   std::optional<PixelFilter> filter; ///< none: the frame's
+  /// Gain and gamma, of colours and variables. Opacity and alpha have it, too, to tell to which picture they
+  /// belong.
+  std::array<float, 2> exposure{1, 1};
 };
 
 /// Channels of a pixel in order: Ci (3), Oi (3), alpha, z, then the AOVs.

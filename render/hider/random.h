@@ -30,7 +30,13 @@ enum RandomPurpose : uint64_t {
   kStrata = 4,
   kTime = 5,
   kLens = 6,
-  kLensCells = 7
+  kLensCells = 7,
+  kLevelStrata = 8,
+  kLevel = 9,
+  kHits = 10,
+  kDisplacedFaces = 11,
+  kRayTime = 12,
+  kHemisphere = 13
 };
 
 } // namespace render

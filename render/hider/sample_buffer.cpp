@@ -28,12 +28,12 @@ struct Quad {
   Edge ab, bd, da, dc, ca;
   Quad(Vec2 a, Vec2 b, Vec2 c, Vec2 d) : ab(a, b), bd(b, d), da(d, a), dc(d, c), ca(c, a) {}
   enum Part { kOutside, kFirst, kSecond };
-  /// The triangle p is in, and its barycentric weights there, in the order above. Of a folded micropolygon
-  /// that covers p twice only the first triangle counts.
-  Part find(Vec2 p, float (&weights)[3]) const {
+  /// The triangle p is in, and its barycentric weights there, in the order above. A folded micropolygon may
+  /// cover p twice: the other triangle is found `after` the first.
+  Part find(Vec2 p, float (&weights)[3], Part after = kOutside) const {
     float diagonal = da.value(p);
     bool side = da.left(diagonal);
-    if (float e = ab.value(p); ab.left(e) == side)
+    if (float e = ab.value(p); after == kOutside && ab.left(e) == side)
       if (float f = bd.value(p); bd.left(f) == side) return weigh(f, diagonal, e, kFirst, weights);
     if (float e = dc.value(p); dc.left(e) != side)
       if (float f = ca.value(p); ca.left(f) != side) return weigh(e, f, diagonal, kSecond, weights);
@@ -104,11 +104,15 @@ SampleBuffer::SampleBuffer(PixelRect rect, const SamplingSettings& settings)
 }
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
+  if (grid.solid != solid_) {
+    resolve_solid();
+    solid_ = grid.solid;
+  }
   auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
   bool moving = settings_.lens || !grid.times.empty();
   for (size_t j = 0, m = 0; j + 1 < nv; ++j)
     for (size_t i = 0; i + 1 < nu; ++i, ++m) {
-      if (grid.hidden[m]) continue;
+      if (grid.hidden[m] == ShadedGrid::kNotDrawn) continue;
       if (moving)
         draw_moving(grid, j * nu + i);
       else
@@ -149,11 +153,13 @@ void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
       if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) continue;
       if (!quad) quad.emplace(p[0], p[1], p[2], p[3]);
       Quad::Part part = quad->find(at, weights);
-      if (part == Quad::kOutside) continue;
-      size_t second = part == Quad::kFirst ? k + 1 : k + nu + 1,
-             third = part == Quad::kFirst ? k + nu + 1 : k + nu;
-      hit(grid, index, {k, second, third}, weights,
-          blend(position[k].z, position[second].z, position[third].z, weights));
+      while (part != Quad::kOutside) {
+        size_t second = part == Quad::kFirst ? k + 1 : k + nu + 1,
+               third = part == Quad::kFirst ? k + nu + 1 : k + nu;
+        hit(grid, index, {k, second, third}, weights,
+            blend(position[k].z, position[second].z, position[third].z, weights));
+        part = grid.solid && part == Quad::kFirst ? quad->find(at, weights, part) : Quad::kOutside;
+      }
     }
 }
 
@@ -203,12 +209,15 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
           if (lens) p[c] += Vec3(lens_[index] * (still ? defocus[c] : lens->defocus(p[c].z)), 0);
         }
         float weights[3];
-        Quad::Part part =
-            Quad(Vec2(p[0]), Vec2(p[1]), Vec2(p[2]), Vec2(p[3])).find(pattern_.at(index), weights);
-        if (part == Quad::kOutside) continue;
-        size_t second = part == Quad::kFirst ? 1 : 3, third = part == Quad::kFirst ? 3 : 2;
-        hit(grid, index, {corner[0], corner[second], corner[third]}, weights,
-            blend(p[0].z, p[second].z, p[third].z, weights));
+        Quad quad{Vec2(p[0]), Vec2(p[1]), Vec2(p[2]), Vec2(p[3])};
+        Quad::Part part = quad.find(pattern_.at(index), weights);
+        while (part != Quad::kOutside) {
+          size_t second = part == Quad::kFirst ? 1 : 3, third = part == Quad::kFirst ? 3 : 2;
+          hit(grid, index, {corner[0], corner[second], corner[third]}, weights,
+              blend(p[0].z, p[second].z, p[third].z, weights));
+          part = grid.solid && part == Quad::kFirst ? quad.find(pattern_.at(index), weights, part)
+                                                    : Quad::kOutside;
+        }
       }
   }
 }
@@ -224,19 +233,56 @@ bool SampleBuffer::removed(size_t index, float z) const {
   return false;
 }
 
+namespace {
+
+/// A colour or opacity. corners[0] is the micropolygon's own corner, whose colour it has throughout without
+/// smooth shading.
+Color colour_of(const ShadedGrid& grid, const std::vector<Color>& colours, const size_t (&corners)[3],
+                const float (&weights)[3]) {
+  const Color& own = colours[corners[0]];
+  return grid.smooth ? blend(own, colours[corners[1]], colours[corners[2]], weights) : own;
+}
+
+} // namespace
+
 void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3],
                        const float (&weights)[3], float z) {
-  Sample& sample = samples_[index];
-  if (z >= (midpoint_ ? sample.second : sample.z) || z < settings_.near_plane || z > settings_.far_plane)
+  if (!grid.level.whole() && !grid.level.has(pattern_.level(index))) return;
+  if (grid.solid) {
+    hit_solid(grid, index, corners, weights, z);
     return;
-  if (removed(index, z)) return;
-  // corners[0] is the micropolygon's own corner, whose colour it has throughout without smooth shading.
-  Color Ci = grid.Ci[corners[0]], Oi = grid.Oi[corners[0]];
-  if (grid.smooth) {
-    Ci = blend(Ci, grid.Ci[corners[1]], grid.Ci[corners[2]], weights);
-    Oi = blend(Oi, grid.Oi[corners[1]], grid.Oi[corners[2]], weights);
   }
+  if (behind(samples_[index], z) || z < settings_.near_plane || z > settings_.far_plane) return;
+  if (removed(index, z)) return;
+  add(index, colour_of(grid, grid.Ci, corners, weights), colour_of(grid, grid.Oi, corners, weights), z,
+      grid.matte, grid.aov.data() + corners[0] * aovs_);
+}
+
+/// Also what is not to be seen, all of which bounds the solid. Nothing is known in front of the near plane.
+void SampleBuffer::hit_solid(const ShadedGrid& grid, size_t index, const size_t (&corners)[3],
+                             const float (&weights)[3], float z) {
+  if (!(z >= settings_.near_plane)) return;
+  // Micropolygons are counted as their first corners are, less one for each row.
+  size_t micropolygon = corners[0] - corners[0] / static_cast<size_t>(grid.nu);
+  bool unseen =
+      grid.hidden[micropolygon] == ShadedGrid::kFacesAway || z > settings_.far_plane || removed(index, z);
+  solid_hits_.add({colour_of(grid, grid.Ci, corners, weights), colour_of(grid, grid.Oi, corners, weights), z,
+                   static_cast<uint32_t>(index), grid.solid_primitive, grid.matte, unseen, grid.cut_near});
   const float* aov = grid.aov.data() + corners[0] * aovs_;
+  solid_aov_.insert(solid_aov_.end(), aov, aov + aovs_);
+}
+
+void SampleBuffer::resolve_solid() {
+  if (solid_hits_.empty()) return;
+  solid_hits_.resolve(*solid_, [&](size_t k, const SolidHit& h) {
+    if (!behind(samples_[h.sample], h.z))
+      add(h.sample, h.Ci, h.Oi, h.z, h.matte, solid_aov_.data() + k * aovs_);
+  });
+  solid_aov_.clear();
+}
+
+void SampleBuffer::add(size_t index, Color Ci, Color Oi, float z, bool matte, const float* aov) {
+  Sample& sample = samples_[index];
   if (reaches(Oi, settings_.opacity_threshold)) {
     farthest_known_ = false;
     bool was_open = (midpoint_ ? sample.second : sample.z) == kInfinity;
@@ -246,13 +292,13 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
     sample.z = z;
     sample.Ci = Ci;
     sample.Oi = Oi;
-    sample.matte = grid.matte;
+    sample.matte = matte;
     std::copy_n(aov, aovs_, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_));
     return;
   }
   if (z >= sample.z || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
   auto order = static_cast<uint32_t>(fragments_.size());
-  fragments_.push_back({Ci, Oi, z, sample.fragments, order, grid.matte});
+  fragments_.push_back({Ci, Oi, z, sample.fragments, order, matte});
   fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs_);
   sample.fragments = order;
 }
@@ -318,6 +364,7 @@ SampleResult SampleBuffer::composite(size_t index) {
 }
 
 void SampleBuffer::finish(Image& image) {
+  resolve_solid();
   std::vector<SampleResult> results(samples_.size());
   for (size_t i = 0; i < samples_.size(); ++i)
     results[i] = composite(i);

@@ -7,6 +7,7 @@
 #include "render/hider/reconstruct.h"
 #include "render/hider/sample_pattern.h"
 #include "render/hider/shaded_grid.h"
+#include "render/hider/solid_hits.h"
 #include "render/state/options.h"
 
 #include <cstdint>
@@ -38,6 +39,7 @@ public:
 
   /// The area the samples lie in, margins included; x1 and y1 excluded.
   PixelRect covered() const { return covered_; }
+  /// The grids of a solid come one after another, all of them, whether they can be seen or not.
   void draw(const ShadedGrid& grid);
   /// Camera z beyond which nothing can be seen any more; infinite while a sample is open.
   float farthest() const;
@@ -66,6 +68,13 @@ private:
   void draw_moving(const ShadedGrid& grid, size_t k);
   void hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
            float z);
+  void hit_solid(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
+                 float z);
+  /// Whether a surface at this depth would not change the sample.
+  bool behind(const Sample& sample, float z) const { return z >= (midpoint_ ? sample.second : sample.z); }
+  /// A surface over a sample, in front of what is opaque there.
+  void add(size_t index, Color Ci, Color Oi, float z, bool matte, const float* aov);
+  void resolve_solid();
   /// Left out by a clipping plane or by the depth mask.
   bool removed(size_t index, float z) const;
   SampleResult composite(size_t index);
@@ -80,6 +89,9 @@ private:
   size_t aovs_; ///< floats of variables for each sample
   std::vector<float> sample_aov_, fragment_aov_;
   std::vector<const Fragment*> scratch_;
+  std::shared_ptr<const SolidTree> solid_; ///< whose grids are being drawn
+  SolidHits solid_hits_;
+  std::vector<float> solid_aov_;
   size_t open_;
   bool midpoint_;
   mutable float farthest_ = kInfinity;

@@ -43,6 +43,25 @@ SamplePattern::SamplePattern(PixelRect area, const SampleGridSize& size, bool ti
       at_.emplace_back((static_cast<float>(x) + dx) / xs, (static_cast<float>(y) + dy) / ys);
     }
   if (timed) add_strata(area, size);
+  if (size.levels) add_levels(area, size);
+}
+
+void SamplePattern::add_levels(PixelRect area, const SampleGridSize& size) {
+  level_.resize(at_.size());
+  std::vector<int> order(static_cast<size_t>(strata_));
+  auto n = static_cast<float>(strata_);
+  for (int row = 0; row < area.height(); ++row)
+    for (int column = 0; column < area.width(); ++column) {
+      int x = area.x0 + column, y = area.y0 + row;
+      shuffle(order, x, y, kLevelStrata);
+      for (int s = 0; s < strata_; ++s) {
+        int cell = order[static_cast<size_t>(s)];
+        int i = column * size.xsamples + cell % size.xsamples, j = row * size.ysamples + cell / size.xsamples;
+        float within = upper_unit(hash_of(x, y, kLevel + 64 * static_cast<uint64_t>(s)));
+        level_[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)] =
+            std::min((static_cast<float>(s) + within) / n, 0x1.fffffep-1f);
+      }
+    }
 }
 
 void SamplePattern::add_strata(PixelRect area, const SampleGridSize& size) {

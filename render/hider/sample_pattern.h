@@ -12,6 +12,7 @@ namespace render {
 struct SampleGridSize {
   int xsamples = 2, ysamples = 2; ///< per pixel
   bool jitter = true;
+  bool levels = false; ///< samples have numbers for levels of detail
 };
 
 /// The n samples of a pixel share the shutter time and the lens: each stratum, 1/n of the time and 1/n of the
@@ -24,9 +25,10 @@ public:
   int width() const { return width_; } ///< samples in a row
   int height() const { return height_; }
   size_t count() const { return at_.size(); }
-  Vec2 at(size_t k) const { return at_[k]; }      ///< raster
-  float time(size_t k) const { return time_[k]; } ///< part of the shutter time, [0, 1)
-  Vec2 lens(size_t k) const { return lens_[k]; }  ///< in the unit disk
+  Vec2 at(size_t k) const { return at_[k]; }        ///< raster
+  float time(size_t k) const { return time_[k]; }   ///< part of the shutter time, [0, 1)
+  Vec2 lens(size_t k) const { return lens_[k]; }    ///< in the unit disk
+  float level(size_t k) const { return level_[k]; } ///< [0, 1); each nth of it has one sample of every pixel
 
   int strata() const { return strata_; }
   /// The sample of a pixel (counted in the area) that is in a stratum.
@@ -44,10 +46,11 @@ public:
 
 private:
   void add_strata(PixelRect area, const SampleGridSize& size);
+  void add_levels(PixelRect area, const SampleGridSize& size);
 
   int width_, height_, columns_, strata_;
   std::vector<Vec2> at_, lens_;
-  std::vector<float> time_;
+  std::vector<float> time_, level_;
   std::vector<uint32_t> of_stratum_;
   std::vector<LensBox> lens_boxes_;
 };

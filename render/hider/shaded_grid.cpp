@@ -16,31 +16,35 @@ bool is_finite(Vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Calls `test` with the four corners of each micropolygon and hides those for which it is true.
-template <class Test> void hide_where(const slvm::Grid& grid, ShadedGrid& out, Test&& test) {
+/// Calls `test` with the four corners of each micropolygon and marks those for which it is true.
+template <class Test>
+void hide_where(const slvm::Grid& grid, ShadedGrid& out, ShadedGrid::Visibility mark, Test&& test) {
   const slvm::Planes& P = grid.variable(slvm::Global::kP);
   auto nu = static_cast<size_t>(out.nu), nv = static_cast<size_t>(out.nv);
   for (size_t j = 0, m = 0; j + 1 < nv; ++j)
     for (size_t i = 0; i + 1 < nu; ++i, ++m) {
       size_t k = j * nu + i;
       Vec3 p[4] = {read(P, k), read(P, k + 1), read(P, k + nu), read(P, k + nu + 1)};
-      if (test(p)) out.hidden[m] = 1;
+      if (test(p) && out.hidden[m] != ShadedGrid::kNotDrawn) out.hidden[m] = mark;
     }
 }
 
 void hide_behind_eye(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
   float nearest = camera.perspective() ? camera.near_plane() : -kInfinity;
-  hide_where(grid, out, [&](const Vec3(&p)[4]) {
+  hide_where(grid, out, ShadedGrid::kNotDrawn, [&](const Vec3(&p)[4]) {
     return std::any_of(p, p + 4, [&](Vec3 q) { return !is_finite(q) || q.z < nearest; });
   });
 }
 
-void hide_back_faces(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
-  float sign = grid.flip_normals ? -1.0f : 1.0f;
-  hide_where(grid, out, [&](const Vec3(&p)[4]) {
+/// `tolerance`: degrees that a micropolygon may face away and still be drawn.
+void hide_back_faces(const slvm::Grid& grid, const Camera& camera, float tolerance, ShadedGrid& out) {
+  float sign = grid.flip_normals ? -1.0f : 1.0f, sine = std::sin(radians(tolerance));
+  hide_where(grid, out, out.solid ? ShadedGrid::kFacesAway : ShadedGrid::kNotDrawn, [&](const Vec3(&p)[4]) {
     // The two diagonals span the plane of the micropolygon also where a side has collapsed.
     Vec3 normal = glm::cross(p[3] - p[0], p[2] - p[1]) * sign;
-    return glm::dot(normal, camera.incident((p[0] + p[3]) * 0.5f)) > 0;
+    Vec3 I = camera.incident((p[0] + p[3]) * 0.5f);
+    float limit = sine > 0 ? sine * glm::length(normal) * glm::length(I) : 0;
+    return glm::dot(normal, I) > limit;
   });
 }
 
@@ -55,6 +59,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   out.nv = grid.nv();
   out.matte = a.matte;
   out.smooth = a.smooth_shading;
+  out.level = primitive.state->level;
   size_t points = grid.points();
   const slvm::Planes &P = grid.variable(slvm::Global::kP), &Ci = grid.variable(slvm::Global::kCi),
                      &Oi = grid.variable(slvm::Global::kOi);
@@ -84,9 +89,11 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
         out.aov[k * static_cast<size_t>(out.aov_floats) + static_cast<size_t>(c.first + i)] =
             planes->get(static_cast<size_t>(i), k);
   }
-  out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), 0);
+  out.solid = primitive.state->solid;
+  out.solid_primitive = primitive.state->solid_primitive;
+  out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), ShadedGrid::kDrawn);
   hide_behind_eye(grid, camera, out);
-  if (a.sides == 1) hide_back_faces(grid, camera, out);
+  if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
   if (outline) snap_to_outline(*outline, out.nu, out.nv, out.position);
   return out;
 }

@@ -20,8 +20,14 @@ struct ShadedGrid {
   std::vector<Color> Ci, Oi;
   std::vector<float> aov; ///< aov_floats a point
   int aov_floats = 0;
-  std::vector<uint8_t> hidden; ///< for each micropolygon: not to be drawn
+  /// For each micropolygon. What faces away and must not be seen still bounds a solid.
+  enum Visibility : uint8_t { kDrawn, kNotDrawn, kFacesAway };
+  std::vector<uint8_t> hidden;
+  std::shared_ptr<const SolidTree> solid; ///< that the surface belongs to; null: none
+  SolidTree::NodeIndex solid_primitive = 0;
+  bool cut_near = false; ///< the solid's primitive reaches in front of the near plane
   bool matte = false;
+  LevelPart level; ///< the samples that see it
   bool smooth = false;
   size_t bad_colours = 0; ///< points whose colour was not a finite number; they became black and opaque
 
@@ -38,8 +44,8 @@ struct ShadedGrid {
   }
 };
 
-/// From a grid that was displaced and shaded. Micropolygons that face away (Sides 1) or touch the eye plane
-/// are hidden. Null outline: none is needed.
+/// From a grid that was displaced and shaded. Micropolygons that touch the eye plane are not drawn, nor those
+/// that face away (Sides 1); of a solid these are kept, marked. Null outline: none is needed.
 ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
                             const GridOutline* outline, std::span<const AovChannel> aovs, GridShader& shader);
 

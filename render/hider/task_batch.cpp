@@ -11,6 +11,24 @@ namespace render {
 TaskBatch::TaskBatch() = default;
 TaskBatch::~TaskBatch() = default;
 
+void TaskBatch::measure_solids(const Camera& camera) {
+  for (const Primitive& p : primitives) {
+    if (!p.state->solid) continue;
+    SolidExtent& extent = solids[p.state->solid.get()];
+    extent.cut_near.resize(p.state->solid->size());
+    if (!(p.camera_bound({}).min.z >= camera.near_plane())) extent.cut_near[p.state->solid_primitive] = 1;
+  }
+  if (solids.empty()) return;
+  auto extent_of = [&](const GridTask& task) {
+    const SolidTree* solid = primitives[task.primitive].state->solid.get();
+    return solid ? &solids.at(solid) : nullptr;
+  };
+  for (const GridTask& task : tasks)
+    if (SolidExtent* e = extent_of(task)) e->zmin = std::min(e->zmin, task.zmin);
+  for (GridTask& task : tasks)
+    if (SolidExtent* e = extent_of(task)) task.zmin = e->zmin;
+}
+
 BucketLayout::BucketLayout(PixelRect c, int w, int h, int mx, int my)
     : crop(c), width(w), height(h), xmargin(mx), ymargin(my), columns((c.width() + w - 1) / w),
       rows((c.height() + h - 1) / h) {}
@@ -64,7 +82,9 @@ BucketQueue::BucketQueue(TaskBatch& scene, std::vector<uint32_t> tasks,
 bool BucketQueue::Later::operator()(const Item& a, const Item& b) const {
   if (a.zmin != b.zmin) return a.zmin > b.zmin;
   uint64_t x = a.lazy ? a.lazy->id : a.batch->id, y = b.lazy ? b.lazy->id : b.batch->id;
-  return x != y ? x > y : a.task > b.task;
+  if (x != y || a.lazy || b.lazy) return x > y;
+  uint32_t s = a.batch->solid_number(a.task), t = b.batch->solid_number(b.task);
+  return s != t ? s > t : a.task > b.task;
 }
 
 bool BucketQueue::next(Item& item) {
@@ -93,6 +113,7 @@ void LazyContent::make(LazyBatch& lazy) {
   batch.primitives = batch.owned;
   for (uint32_t k = 0; k < batch.owned.size(); ++k)
     split_primitive(batch.owned[k], k, split_, batch.tasks);
+  batch.measure_solids(camera_);
   batch.slots = std::make_unique<GridSlot[]>(batch.tasks.size());
   auto waiting = [&](const BucketRange& r, auto&& gone) {
     for (int j = r.j0; j <= r.j1; ++j)
@@ -146,6 +167,7 @@ void LazyContent::leave(LazyBatch& lazy, int i, int j, bool was_open) {
   lazy.batch.procedurals.clear();
   lazy.batch.slots.reset();
   lazy.batch.tasks = {};
+  lazy.batch.solids.clear();
   lazy.batch.primitives = {};
   lazy.batch.owned = {};
 }

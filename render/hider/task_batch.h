@@ -13,6 +13,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <queue>
@@ -65,6 +66,12 @@ struct GridSlot {
 
 struct LazyBatch;
 
+/// A solid in this frame.
+struct SolidExtent {
+  float zmin = kInfinity;        ///< nearest depth of all its pieces
+  std::vector<uint8_t> cut_near; ///< for each node of its tree: it reaches in front of the near plane
+};
+
 struct TaskBatch {
   TaskBatch();
   ~TaskBatch();
@@ -75,6 +82,16 @@ struct TaskBatch {
   std::vector<GridTask> tasks;
   std::unique_ptr<GridSlot[]> slots;
   std::vector<std::unique_ptr<LazyBatch>> procedurals;
+  std::map<const SolidTree*, SolidExtent> solids;
+
+  /// When all tasks are there. What bounds a solid is known when all its surfaces are: its grids come
+  /// together, at the turn of the nearest.
+  void measure_solids(const Camera&);
+  /// 0: the task's surface belongs to none.
+  uint32_t solid_number(uint32_t task) const {
+    const SolidTree* solid = solids.empty() ? nullptr : primitive_of(task).state->solid.get();
+    return solid ? solid->number() : 0;
+  }
 
   const Primitive& primitive_of(uint32_t task) const { return primitives[tasks[task].primitive]; }
 };

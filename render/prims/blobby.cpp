@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 namespace render {
 
@@ -53,8 +54,11 @@ std::string BlobbyField::add_leaf(int code, std::span<const float> floats, Node&
     return {};
   }
   if (code == 1003) {
-    node.kind = Kind::kPlane;
-    has_planes_ = true;
+    node.kind = Kind::kGround;
+    node.profile = {floats[0], floats[1], floats[2], floats[3]};
+    if (!(node.profile.reach > 0) || !(node.profile.peak > 0))
+      return fmt::format("the heights of a ground are {} and {}; they must be positive", node.profile.reach,
+                         node.profile.peak);
     return {};
   }
   bool segment = code == 1002;
@@ -81,8 +85,8 @@ std::string BlobbyField::add_leaf(int code, std::span<const float> floats, Node&
   return {};
 }
 
-slvm::Result<BlobbyField> BlobbyField::make(int leaves, std::span<const int> code,
-                                            std::span<const float> floats) {
+slvm::Result<BlobbyField> BlobbyField::make(std::span<const int> code, std::span<const float> floats,
+                                            const FindGround& find_ground) {
   BlobbyField out;
   size_t i = 0;
   auto take = [&](size_t n) {
@@ -101,6 +105,7 @@ slvm::Result<BlobbyField> BlobbyField::make(int leaves, std::span<const int> cod
         return slvm::Error{fmt::format("a leaf of code {} has no index of its numbers", op)};
       std::string wrong = out.add_leaf(op, floats.subspan(static_cast<size_t>(index)), node);
       if (!wrong.empty()) return slvm::Error{wrong};
+      if (op == 1003 && find_ground) node.ground = find_ground(operands[0]);
       ++out.leaf_count_;
     } else if (op >= 0 && op <= 7) {
       node.kind = static_cast<Kind>(static_cast<int>(Kind::kAdd) + op);
@@ -116,19 +121,19 @@ slvm::Result<BlobbyField> BlobbyField::make(int leaves, std::span<const int> cod
         if (o < 0 || static_cast<size_t>(o) >= out.nodes_.size())
           return slvm::Error{fmt::format("operator {} uses result {}, which does not precede it", op, o)};
       node.operands.assign(operands.begin(), operands.end());
+    } else if (op == 1004) {
+      return slvm::Error{"a leaf of code 1004 is a plug-in, and these are not supported"};
     } else {
       return slvm::Error{fmt::format("unknown code {}", op)};
     }
     out.nodes_.push_back(std::move(node));
   }
-  if (static_cast<size_t>(std::max(leaves, 0)) != out.leaf_count_)
-    return slvm::Error{fmt::format("'nleaf' is {}, but the code has {} leaves", leaves, out.leaf_count_)};
   return out;
 }
 
 double BlobbyField::leaf(const Node& node, Vec3d p) {
   if (node.kind == Kind::kConstant) return node.constant;
-  if (node.kind == Kind::kPlane) return 0;
+  if (node.kind == Kind::kGround) return node.ground ? node.profile.at(node.ground->height(p)) : 0;
   for (int c = 0; c < 3; ++c)
     if (p[c] < static_cast<double>(node.box.min[c]) || p[c] > static_cast<double>(node.box.max[c])) return 0;
   Vec3d q = transform(node.to_leaf, p);
@@ -141,17 +146,27 @@ double BlobbyField::leaf(const Node& node, Vec3d p) {
   return falloff(glm::dot(d, d) / (radius * radius));
 }
 
-double BlobbyField::at(Vec3d p, std::span<double> leaf_values) const {
-  constexpr size_t kOnStack = 64;
-  double few[kOnStack];
-  std::vector<double> many(nodes_.size() > kOnStack ? nodes_.size() : 0);
-  double* value = many.empty() ? few : many.data();
-  size_t leaf_index = 0;
+namespace {
+
+/// Room for the values of all nodes, without the heap for most Blobbies.
+class NodeValues {
+public:
+  explicit NodeValues(size_t n) : many_(n > kOnStack ? n : 0) { std::fill_n(data(), n, 0.0); }
+  double* data() { return many_.empty() ? few_ : many_.data(); }
+
+private:
+  static constexpr size_t kOnStack = 64;
+  double few_[kOnStack];
+  std::vector<double> many_;
+};
+
+} // namespace
+
+void BlobbyField::evaluate(Vec3d p, double* value) const {
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const Node& n = nodes_[i];
     if (n.operands.empty()) {
       value[i] = leaf(n, p);
-      if (!leaf_values.empty()) leaf_values[leaf_index++] = n.kind == Kind::kConstant ? 0 : value[i];
       continue;
     }
     double v = value[n.operands[0]];
@@ -168,7 +183,56 @@ double BlobbyField::at(Vec3d p, std::span<double> leaf_values) const {
     }
     value[i] = n.kind == Kind::kNegate ? -v : v;
   }
-  return nodes_.empty() ? 0 : value[nodes_.size() - 1];
+}
+
+double BlobbyField::at(Vec3d p) const {
+  if (nodes_.empty()) return 0;
+  NodeValues values(nodes_.size());
+  evaluate(p, values.data());
+  return values.data()[nodes_.size() - 1];
+}
+
+/// Divides the part of a node among its operands.
+void BlobbyField::pass_on(const Node& n, const double* value, double part, double* parts) {
+  auto decides = [&](auto&& better) {
+    int best = n.operands[0];
+    for (int o : n.operands)
+      if (better(value[o], value[best])) best = o;
+    parts[best] += part;
+  };
+  switch (n.kind) {
+  case Kind::kAdd:
+  case Kind::kMultiply: {
+    double sum = 0;
+    for (int o : n.operands)
+      sum += std::max(value[o], 0.0);
+    for (int o : n.operands)
+      if (sum > 0) parts[o] += part * std::max(value[o], 0.0) / sum;
+    return;
+  }
+  case Kind::kMax: decides(std::greater<>()); return;
+  case Kind::kMin: decides(std::less<>()); return;
+  default: parts[n.operands[0]] += part;
+  }
+}
+
+void BlobbyField::shares(Vec3d p, std::span<double> out) const {
+  NodeValues values(nodes_.size()), parts(nodes_.size());
+  evaluate(p, values.data());
+  if (!nodes_.empty()) parts.data()[nodes_.size() - 1] = 1;
+  size_t leaf_index = leaf_count_;
+  double sum = 0;
+  for (size_t i = nodes_.size(); i-- > 0;) {
+    double part = parts.data()[i];
+    if (!nodes_[i].operands.empty()) {
+      pass_on(nodes_[i], values.data(), part, parts.data());
+      continue;
+    }
+    out[--leaf_index] = nodes_[i].kind == Kind::kConstant ? 0 : part;
+    sum += out[leaf_index];
+  }
+  for (double& s : out)
+    s = sum > 0 ? s / sum : 1 / static_cast<double>(out.size());
 }
 
 Vec3d BlobbyField::outwards(Vec3d p, double step) const {

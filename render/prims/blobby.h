@@ -2,10 +2,12 @@
 // value. Leaves are (1 - r^2)^3 of a distance r below 1; the surface is where the field is that of r = 1/2.
 #pragma once
 
+#include "render/prims/blobby_ground.h"
 #include "render/prims/primitive.h"
 #include "render/state/declaration.h"
 #include "slvm/support/result.h"
 
+#include <functional>
 #include <span>
 #include <string>
 
@@ -15,26 +17,31 @@ class BlobbyField {
 public:
   static constexpr double kThreshold = 0.421875; ///< (1 - 1/4)^3
 
+  /// The ground of the string with this number; null: there is none, and nothing repels.
+  using FindGround = std::function<std::shared_ptr<const BlobbyGround>(int)>;
   /// From the arguments of the request. The error says what is wrong with the code.
-  static slvm::Result<BlobbyField> make(int leaves, std::span<const int> code, std::span<const float> floats);
+  static slvm::Result<BlobbyField> make(std::span<const int> code, std::span<const float> floats,
+                                        const FindGround& find_ground = {});
 
-  /// The field; `leaf_values` receives those of the leaves unless it is empty.
-  double at(glm::dvec3 p, std::span<double> leaf_values = {}) const;
+  double at(glm::dvec3 p) const;
+  /// What part of a variable's value comes from each leaf: sums and products share it in proportion to their
+  /// operands' fields, a maximum or minimum takes it from the operand that decides, a difference or quotient
+  /// from its first. The parts add up to 1; constants have none.
+  void shares(glm::dvec3 p, std::span<double> out) const;
   /// Unit vector to where the field falls fastest.
   glm::dvec3 outwards(glm::dvec3 p, double step) const;
   size_t leaves() const { return leaf_count_; }
-  /// Around all leaves but constants, which are everywhere.
+  /// Around all leaves but constants and grounds, which are everywhere.
   Box bound() const { return bound_; }
   /// The smallest radius of a leaf.
   float smallest() const { return smallest_; }
-  bool has_planes() const { return has_planes_; }
 
 private:
   enum class Kind : uint8_t {
     kConstant,
     kEllipsoid,
     kSegment,
-    kPlane,
+    kGround,
     kAdd,
     kMultiply,
     kMax,
@@ -50,17 +57,21 @@ private:
     Matrix4 to_leaf; ///< into the space where an ellipsoid is the unit sphere
     Vec3 a{0.0f}, b{0.0f};
     float radius = 1;
+    std::shared_ptr<const BlobbyGround> ground;
+    GroundProfile profile;
     Box box;
     std::vector<int> operands;
   };
   std::string add_leaf(int code, std::span<const float> floats, Node& node);
   static double leaf(const Node& node, glm::dvec3 p);
+  /// The fields of all nodes.
+  void evaluate(glm::dvec3 p, double* value) const;
+  static void pass_on(const Node& node, const double* value, double part, double* parts);
 
   std::vector<Node> nodes_;
   size_t leaf_count_ = 0;
   Box bound_;
   float smallest_ = kInfinity;
-  bool has_planes_ = false;
 };
 
 /// Appends the surface as smooth quadrilaterals, about 24 across the smallest leaf where that is not too

@@ -16,11 +16,11 @@ using Vec3d = glm::dvec3;
 class SmoothQuad final : public Geometry {
 public:
   SmoothQuad(const std::array<Vec3, 4>& points, const std::array<Vec3, 4>& normals)
-      : flat_(make_bilinear(points)), normals_(normals) {}
-  Box bound(const UvRect& r) const override { return flat_->bound(r); }
+      : flat_(points), normals_(normals) {}
+  Box bound(const UvRect& r) const override { return flat_.bound(r); }
   bool ruled() const override { return true; }
   void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    flat_->evaluate(u, v, out);
+    flat_.evaluate(u, v, out);
     size_t k = 0;
     for (float b : v)
       for (float a : u)
@@ -29,7 +29,7 @@ public:
   }
 
 private:
-  std::shared_ptr<const Geometry> flat_;
+  BilinearPatch flat_;
   std::array<Vec3, 4> normals_;
 };
 
@@ -61,6 +61,7 @@ public:
   }
 
 private:
+  static constexpr double kOnSurface = 1e-3; ///< difference of fields that does not show
   struct Vertex {
     Vec3 P, N;
     std::vector<double> shares; ///< of the leaves; they add up to 1
@@ -106,6 +107,21 @@ private:
         }
   }
 
+  /// A point of the surface on a line through `start`, at most a cell away from it, where the field is too
+  /// steep for Newton's steps; `otherwise` if the line stays on one side.
+  Vec3d bisected(Vec3d start, Vec3d otherwise) const {
+    Vec3d direction = field_.outwards(start, 1e-3 * cell_);
+    auto inside = [&](double t) { return field_.at(start + direction * t) > BlobbyField::kThreshold; };
+    bool here = inside(0);
+    double low = 0, high = here ? cell_ : -cell_;
+    if (inside(high) == here) return otherwise;
+    for (int i = 0; i < 24; ++i) {
+      double middle = 0.5 * (low + high);
+      (inside(middle) == here ? low : high) = middle;
+    }
+    return start + direction * low;
+  }
+
   /// Moves a point onto the surface, by at most a cell.
   Vertex vertex(Vec3d start) const {
     double step = 1e-3 * cell_;
@@ -118,13 +134,11 @@ private:
       if (!(glm::distance(next, start) < cell_)) break;
       p = next;
     }
-    Vertex out{Vec3(p), Vec3(field_.outwards(p, step)), std::vector<double>(field_.leaves())};
-    field_.at(p, out.shares);
-    double sum = 0;
-    for (double& s : out.shares)
-      sum += s;
-    for (double& s : out.shares)
-      s = sum > 0 ? s / sum : 1 / static_cast<double>(out.shares.size());
+    if (std::abs(field_.at(p) - BlobbyField::kThreshold) > kOnSurface) p = bisected(start, p);
+    Vertex out{Vec3(p), Vec3(field_.outwards(p, step)), {}};
+    if (vars_.empty()) return out;
+    out.shares.resize(field_.leaves());
+    field_.shares(p, out.shares);
     return out;
   }
 

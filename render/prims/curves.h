@@ -30,12 +30,12 @@ struct CurveLayout {
 
 /// Appends a primitive for each segment of each curve. Widths come from "width" or "constantwidth", else they
 /// are 1; with "N" the ribbons face it. Sizes of the variables: RISpec 3.2, section 5.6.
-void add_curves(const CurveLayout& layout, std::span<const int> points_of_curve, std::span<const Vec3> P,
-                std::span<const TypedParam> vars, const EyeInObject& eye,
+void add_curves(const CurveLayout& layout, std::span<const int> points_of_curve, std::vector<Vec3> P,
+                std::vector<TypedParam> vars, const EyeInObject& eye,
                 const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
 
 /// Appends a disc for each point; widths as above.
-void add_points(std::span<const Vec3> P, std::span<const TypedParam> vars, const EyeInObject& eye,
+void add_points(std::vector<Vec3> P, std::vector<TypedParam> vars, const EyeInObject& eye,
                 const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
 
 } // namespace render

@@ -38,63 +38,78 @@ std::vector<float> parameters(float from, float to, int n) {
 
 class Dicer {
 public:
-  Dicer(const Primitive& primitive, const GridTask& task, const DiceContext& context, slvm::Grid& grid)
-      : primitive_(primitive), state_(*primitive.state), attributes_(primitive.attributes()),
-        context_(context), grid_(grid), u_(parameters(task.rect.u0, task.rect.u1, task.nu)),
-        v_(parameters(task.rect.v0, task.rect.v1, task.nv)) {}
+  Dicer(std::span<const SurfacePoints> parts, const DiceContext& context, slvm::Grid& grid)
+      : parts_(parts), first_(*parts.front().primitive), attributes_(first_.attributes()), context_(context),
+        grid_(grid) {}
 
   void run() {
+    grid_.object_to_current = first_.state->object_to_camera;
+    grid_.user = &first_;
     set_geometry();
     set_parameters();
     set_colours();
-    for (const PatchVar& var : primitive_.vars)
-      set_primvar(var);
+    for (size_t i = 0; i < first_.vars.size(); ++i)
+      set_primvar(i);
   }
 
 private:
   void set_geometry();
   void set_parameters();
   void set_colours();
-  void set_primvar(const PatchVar& var);
-  bool set_predefined(const PatchVar& var);
-  void to_camera(slvm::Type type, float* planes, size_t count);
+  void set_primvar(size_t index);
+  void set_st(size_t index);
+  void fill(size_t index, float* planes);
+  void to_camera(const Matrix4& m, slvm::Type type, float* planes, size_t count, size_t points) const;
+  /// Calls f(part, number of its first point) for all parts.
+  template <class F> void for_parts(F&& f) const {
+    size_t first = 0;
+    for (const SurfacePoints& part : parts_) {
+      f(part, first);
+      first += part.u.size() * part.v.size();
+    }
+  }
 
-  const Primitive& primitive_;
-  const PrimitiveState& state_;
+  std::span<const SurfacePoints> parts_;
+  const Primitive& first_;
   const Attributes& attributes_;
   const DiceContext& context_;
   slvm::Grid& grid_;
-  std::vector<float> u_, v_;
 };
 
 void Dicer::set_geometry() {
   SurfaceLattice lattice;
-  primitive_.geometry->evaluate(u_, v_, lattice);
-  grid_.flip_normals = attributes_.flips_normals(state_.mirrored);
+  grid_.flip_normals = attributes_.flips_normals(first_.state->mirrored);
   // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
   // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
-  float sign = grid_.flip_normals == state_.mirrored ? 1.0f : -1.0f;
+  float sign = grid_.flip_normals == first_.state->mirrored ? 1.0f : -1.0f;
   Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN), Ng = triple(grid_, Global::kNg),
          dPdu = triple(grid_, Global::kdPdu), dPdv = triple(grid_, Global::kdPdv),
          I = triple(grid_, Global::kI);
-  const Matrix4& m = state_.object_to_camera;
-  const Matrix4& inverse = state_.camera_to_object;
-  float along_u = 1 / (primitive_.uv.u1 - primitive_.uv.u0),
-        along_v = 1 / (primitive_.uv.v1 - primitive_.uv.v0);
-  for (size_t k = 0; k < lattice.P.size(); ++k) {
-    Vec3 p = transform_point(m, lattice.P[k]);
-    P.set(k, p);
-    I.set(k, context_.camera->incident(p));
-    dPdu.set(k, transform_vector(m, lattice.dPdu[k] * along_u));
-    dPdv.set(k, transform_vector(m, lattice.dPdv[k] * along_v));
-    // Normals go by the inverse transpose.
-    Vec3 n = lattice.N[k];
-    Vec3 nc;
-    for (int i = 0; i < 3; ++i)
-      nc[i] = sign * (inverse(i, 0) * n.x + inverse(i, 1) * n.y + inverse(i, 2) * n.z);
-    N.set(k, nc);
-    Ng.set(k, nc);
-  }
+  for_parts([&](const SurfacePoints& part, size_t k) {
+    const Primitive& primitive = *part.primitive;
+    const Matrix4& m = primitive.state->object_to_camera;
+    const Matrix4& inverse = primitive.state->camera_to_object;
+    float along_u = 1 / (primitive.uv.u1 - primitive.uv.u0),
+          along_v = 1 / (primitive.uv.v1 - primitive.uv.v0);
+    auto set = [&](const SurfaceValue& at) {
+      Vec3 p = transform_point(m, at.P);
+      P.set(k, p);
+      I.set(k, context_.camera->incident(p));
+      dPdu.set(k, transform_vector(m, at.dPdu * along_u));
+      dPdv.set(k, transform_vector(m, at.dPdv * along_v));
+      // Normals go by the inverse transpose.
+      Vec3 nc;
+      for (int c = 0; c < 3; ++c)
+        nc[c] = sign * (inverse(c, 0) * at.N.x + inverse(c, 1) * at.N.y + inverse(c, 2) * at.N.z);
+      N.set(k, nc);
+      Ng.set(k, nc);
+      ++k;
+    };
+    if (part.known) return set(*part.known);
+    primitive.geometry->evaluate(part.u, part.v, lattice);
+    for (size_t i = 0; i < lattice.P.size(); ++i)
+      set({lattice.P[i], lattice.dPdu[i], lattice.dPdv[i], lattice.N[i]});
+  });
 }
 
 void Dicer::set_parameters() {
@@ -103,31 +118,27 @@ void Dicer::set_parameters() {
   float* s = grid_.varying(Global::ks);
   float* t = grid_.varying(Global::kt);
   const auto& tc = attributes_.texture_coordinates;
-  size_t k = 0;
-  const UvRect& whole = primitive_.uv;
-  float width = whole.u1 - whole.u0, height = whole.v1 - whole.v0;
-  for (float vj : v_)
-    for (float ui : u_) {
-      u[k] = whole.u0 + width * ui;
-      v[k] = whole.v0 + height * vj;
-      ++k;
-    }
+  for_parts([&](const SurfacePoints& part, size_t k) {
+    const UvRect& whole = part.primitive->uv;
+    for (float vj : part.v)
+      for (float ui : part.u) {
+        u[k] = whole.u0 + (whole.u1 - whole.u0) * ui;
+        v[k] = whole.v0 + (whole.v1 - whole.v0) * vj;
+        ++k;
+      }
+  });
   // Pieces of odd shapes bring their parameters along; s and t follow these.
-  for (const PatchVar& var : primitive_.vars)
-    if ((var.name == "u" || var.name == "v") && var.type == slvm::Type::kFloat && !var.elements)
-      interpolate(var, u_, v_, var.name == "u" ? u : v, grid_.pitch());
-  for (k = 0; k < grid_.points(); ++k) {
+  for (size_t i = 0; i < first_.vars.size(); ++i)
+    if (Global g = replaced_variable(first_.vars[i]); g == Global::ku || g == Global::kv)
+      fill(i, g == Global::ku ? u : v);
+  for (size_t k = 0; k < grid_.points(); ++k) {
     float a = u[k], b = v[k];
     s[k] = (tc[0] * (1 - a) + tc[2] * a) * (1 - b) + (tc[4] * (1 - a) + tc[6] * a) * b;
     t[k] = (tc[1] * (1 - a) + tc[3] * a) * (1 - b) + (tc[5] * (1 - a) + tc[7] * a) * b;
   }
-  float du = width * (u_.back() - u_.front()) / static_cast<float>(u_.size() - 1);
-  float dv = height * (v_.back() - v_.front()) / static_cast<float>(v_.size() - 1);
   auto set = [&](Global g, std::initializer_list<float> value) {
     grid_.set_uniform(g, {value.begin(), value.size()});
   };
-  set(Global::kdu, {du});
-  set(Global::kdv, {dv});
   set(Global::kE, {0, 0, 0});
   set(Global::kncomps, {3});
   set(Global::ktime, {context_.time});
@@ -142,51 +153,54 @@ void Dicer::set_colours() {
 }
 
 /// Object-space values to camera space, in place.
-void Dicer::to_camera(slvm::Type type, float* planes, size_t count) {
+void Dicer::to_camera(const Matrix4& m, slvm::Type type, float* planes, size_t count, size_t points) const {
   if (!slvm::is_geometric(type)) return;
   size_t pitch = grid_.pitch();
   for (size_t e = 0; e < count; ++e, planes += 3 * pitch)
-    for (size_t k = 0; k < grid_.points(); ++k) {
+    for (size_t k = 0; k < points; ++k) {
       std::array<float, 3> a{planes[k], planes[pitch + k], planes[2 * pitch + k]}, b;
       if (type == slvm::Type::kPoint)
-        b = slvm::transform_point(state_.object_to_camera, a);
+        b = slvm::transform_point(m, a);
       else if (type == slvm::Type::kVector)
-        b = slvm::transform_vector(state_.object_to_camera, a);
+        b = slvm::transform_vector(m, a);
       else
-        b = slvm::transform_normal(state_.object_to_camera, a);
+        b = slvm::transform_normal(m, a);
       for (size_t c = 0; c < 3; ++c)
         planes[c * pitch + k] = b[c];
     }
 }
 
-/// Variables that replace a predefined one instead of being added.
-bool Dicer::set_predefined(const PatchVar& var) {
-  if (var.name == "st" && var.elements == 2 && var.type == slvm::Type::kFloat) {
-    PatchVar one = var;
-    one.elements = 0;
-    for (size_t c = 0; c < 2; ++c) {
-      one.values.clear();
-      for (size_t i = c; i < var.values.size(); i += 2)
-        one.values.push_back(var.values[i]);
-      interpolate(one, u_, v_, grid_.varying(c == 0 ? Global::ks : Global::kt), grid_.pitch());
-    }
-    return true;
-  }
-  constexpr std::pair<std::string_view, Global> kNames[] = {
-      {"Cs", Global::kCs}, {"Os", Global::kOs}, {"s", Global::ks}, {"t", Global::kt},
-      {"N", Global::kN},   {"u", Global::ku},   {"v", Global::kv}};
-  for (auto [name, global] : kNames)
-    if (var.name == name && var.type == slvm::global_info(global).type && !var.elements) {
-      float* planes = grid_.varying(global);
-      interpolate(var, u_, v_, planes, grid_.pitch());
-      to_camera(var.type, planes, 1);
-      return true;
-    }
-  return false;
+/// The values of a variable at all points.
+void Dicer::fill(size_t index, float* planes) {
+  const Primitive* of = nullptr;
+  PatchVar var;
+  for_parts([&](const SurfacePoints& part, size_t first) {
+    if (part.primitive != of) var = (of = part.primitive)->vars[index];
+    interpolate(var, part.u, part.v, planes + first, grid_.pitch());
+    to_camera(part.primitive->state->object_to_camera, var.type, planes + first,
+              var.elements ? var.elements : 1, part.u.size() * part.v.size());
+  });
 }
 
-void Dicer::set_primvar(const PatchVar& var) {
-  if (set_predefined(var)) return;
+void Dicer::set_st(size_t index) {
+  float* planes[2] = {grid_.varying(Global::ks), grid_.varying(Global::kt)};
+  std::vector<float> both;
+  const Primitive* of = nullptr;
+  PatchVar var;
+  for_parts([&](const SurfacePoints& part, size_t first) {
+    if (part.primitive != of) var = (of = part.primitive)->vars[index];
+    size_t points = part.u.size() * part.v.size();
+    both.resize(2 * points);
+    interpolate(var, part.u, part.v, both.data(), points);
+    for (size_t c = 0; c < 2; ++c)
+      std::copy_n(both.data() + c * points, points, planes[c] + first);
+  });
+}
+
+void Dicer::set_primvar(size_t index) {
+  const PatchVar& var = first_.vars[index];
+  if (is_st(var)) return set_st(index);
+  if (Global g = replaced_variable(var); g != Global::kCount) return fill(index, grid_.varying(g));
   // Constant values cost nothing as uniforms; geometric ones and matrices need the transformation below.
   bool plain = var.type == slvm::Type::kFloat || var.type == slvm::Type::kColor ||
                var.type == slvm::Type::kString || var.type == slvm::Type::kMatrix;
@@ -196,21 +210,42 @@ void Dicer::set_primvar(const PatchVar& var) {
     return;
   }
   if (var.type == slvm::Type::kString) return; // strings do not interpolate; the interpreter has said so
-  float* planes = grid_.add_varying_primvar(var.name, var.type, var.elements);
-  interpolate(var, u_, v_, planes, grid_.pitch());
-  to_camera(var.type, planes, var.elements ? var.elements : 1);
+  fill(index, grid_.add_varying_primvar(var.name, var.type, var.elements));
 }
 
 } // namespace
+
+slvm::Global replaced_variable(const PatchVar& var) {
+  constexpr std::pair<std::string_view, Global> kNames[] = {
+      {"Cs", Global::kCs}, {"Os", Global::kOs}, {"s", Global::ks}, {"t", Global::kt},
+      {"N", Global::kN},   {"u", Global::ku},   {"v", Global::kv}};
+  for (auto [name, global] : kNames)
+    if (var.name == name && var.type == slvm::global_info(global).type && !var.elements) return global;
+  return Global::kCount;
+}
+
+bool is_st(const PatchVar& var) {
+  return var.name == "st" && var.elements == 2 && var.type == slvm::Type::kFloat;
+}
 
 void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context,
           slvm::Grid& grid) {
   grid.reset(task.nu, task.nv);
   grid.derivatives = true;
-  grid.object_to_current = primitive.state->object_to_camera;
   grid.id = id;
-  grid.user = &primitive;
-  Dicer(primitive, task, context, grid).run();
+  std::vector<float> u = parameters(task.rect.u0, task.rect.u1, task.nu),
+                     v = parameters(task.rect.v0, task.rect.v1, task.nv);
+  SurfacePoints points{&primitive, u, v};
+  dice_points({&points, 1}, context, grid);
+  const UvRect& whole = primitive.uv;
+  float du = (whole.u1 - whole.u0) * (u.back() - u.front()) / static_cast<float>(u.size() - 1);
+  float dv = (whole.v1 - whole.v0) * (v.back() - v.front()) / static_cast<float>(v.size() - 1);
+  grid.set_uniform(Global::kdu, {&du, 1});
+  grid.set_uniform(Global::kdv, {&dv, 1});
+}
+
+void dice_points(std::span<const SurfacePoints> parts, const DiceContext& context, slvm::Grid& grid) {
+  Dicer(parts, context, grid).run();
 }
 
 void renew_geometry(const Camera& camera, slvm::Grid& grid) {

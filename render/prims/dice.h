@@ -5,6 +5,8 @@
 #include "render/prims/split.h"
 #include "slvm/grid.h"
 
+#include <span>
+
 namespace slvm {
 class StringPool;
 }
@@ -22,6 +24,28 @@ struct DiceContext {
 /// random().
 void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context,
           slvm::Grid& grid);
+
+/// A point of a surface in object space, as SurfaceLattice has it.
+struct SurfaceValue {
+  Vec3 P, dPdu, dPdv, N;
+};
+
+/// Points of a primitive: all pairs of a u and a v of its parameter square.
+struct SurfacePoints {
+  const Primitive* primitive = nullptr;
+  std::span<const float> u, v;
+  const SurfaceValue* known = nullptr; ///< of a single point: what the geometry gives there
+};
+
+/// Fills a grid with the points of `parts`, one part after another; it has as many points, and du and dv are
+/// left to the caller. The primitives have the same attributes, the same object space and variables of the
+/// same names and kinds; constant ones have the same values, unless they replace predefined ones.
+void dice_points(std::span<const SurfacePoints> parts, const DiceContext& context, slvm::Grid& grid);
+
+/// The predefined variable that a primitive variable replaces, or kCount. "st" is none: it replaces two.
+slvm::Global replaced_variable(const PatchVar& var);
+/// Whether a primitive variable is "st".
+bool is_st(const PatchVar& var);
 
 /// After P was moved: I, Ng, dPdu and dPdv anew, the latter from differences of P. N stays what the
 /// displacement shader left.

@@ -1,6 +1,7 @@
 // Patch meshes.
 #include "render/prims/patch_mesh.h"
 
+#include "render/prims/mesh_pieces.h"
 #include "render/prims/nurbs.h"
 #include "render/prims/patches.h"
 #include "render/prims/typed_vars.h"
@@ -47,35 +48,6 @@ private:
   int i_, j_;
 };
 
-PatchVar patch_var(const TypedParam& var, const MeshPatch& patch, const MeshDirection& u,
-                   const MeshDirection& v) {
-  switch (var.declaration.storage) {
-  case StorageClass::kConstant: return constant_var(var, 0);
-  case StorageClass::kUniform: return constant_var(var, patch.index());
-  case StorageClass::kVertex:
-    return u.cubic ? bicubic_var(var, patch.bicubic_points(), u.basis, v.basis)
-                   : bilinear_var(var, patch.bilinear_points());
-  case StorageClass::kVarying:
-  case StorageClass::kFaceVarying: break;
-  }
-  return bilinear_var(var, patch.corners());
-}
-
-std::shared_ptr<const Geometry> patch_geometry(std::span<const Vec3> P, const MeshPatch& patch,
-                                               const MeshDirection& u, const MeshDirection& v) {
-  if (!u.cubic) {
-    auto p = patch.bilinear_points();
-    return make_bilinear({P[p[0]], P[p[1]], P[p[2]], P[p[3]]});
-  }
-  auto indices = patch.bicubic_points();
-  std::array<Vec3, 16> control;
-  for (size_t k = 0; k < 16; ++k)
-    control[k] = P[indices[k]];
-  for (int c = 0; c < 3; ++c)
-    convert_to_bezier(u.basis, v.basis, &control[0][c], 3);
-  return make_bicubic(control);
-}
-
 /// A rational patch is a NURBS of one knot interval. Null: a weight of its Bezier form is not positive.
 std::shared_ptr<const Geometry> rational_geometry(std::span<const Vec3> P, std::span<const float> weights,
                                                   const MeshPatch& patch, const MeshDirection& u,
@@ -105,23 +77,105 @@ std::shared_ptr<const Geometry> rational_geometry(std::span<const Vec3> P, std::
   return make_nurbs({surface, {{0, 0}, {1, 0}, {0, 1}, {1, 1}}, 0, 0});
 }
 
+class MeshOfPatches;
+
+/// Patch (i, j) of a mesh that is not rational.
+class MeshPiece final : public Geometry {
+public:
+  MeshPiece(const MeshOfPatches& mesh, int i, int j) : mesh_(&mesh), i_(i), j_(j) {}
+  Box bound(const UvRect& r) const override;
+  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override;
+  bool ruled() const override;
+  int i() const { return i_; }
+  int j() const { return j_; }
+
+private:
+  const MeshOfPatches* mesh_;
+  int i_, j_;
+};
+
+class MeshOfPatches final : public VarSource {
+public:
+  MeshOfPatches(const MeshDirection& u, const MeshDirection& v, std::span<const Vec3> P,
+                std::span<const TypedParam> vars)
+      : u_(u), v_(v), P_(P.begin(), P.end()), vars_(vars.begin(), vars.end()),
+        u_to_bezier_(to_bezier(u.basis)), v_to_bezier_(to_bezier(v.basis)) {
+    patches_.reserve(static_cast<size_t>(u.patches()) * static_cast<size_t>(v.patches()));
+    for (int j = 0; j < v.patches(); ++j)
+      for (int i = 0; i < u.patches(); ++i)
+        patches_.emplace_back(*this, i, j);
+  }
+
+  std::span<const MeshPiece> patches() const { return patches_; }
+  MeshPatch patch(const MeshPiece& p) const { return {u_, v_, p.i(), p.j()}; }
+  bool cubic() const { return u_.cubic; }
+  BilinearPatch bilinear(const MeshPiece& piece) const {
+    auto p = patch(piece).bilinear_points();
+    return BilinearPatch({P_[p[0]], P_[p[1]], P_[p[2]], P_[p[3]]});
+  }
+  BicubicPatch bicubic(const MeshPiece& piece) const {
+    auto indices = patch(piece).bicubic_points();
+    std::array<Vec3, 16> control;
+    for (size_t k = 0; k < 16; ++k)
+      control[k] = P_[indices[k]];
+    for (int c = 0; c < 3; ++c)
+      convert_to_bezier(u_to_bezier_, v_to_bezier_, &control[0][c], 3);
+    return BicubicPatch(control);
+  }
+
+  size_t count() const override { return vars_.size(); }
+  PatchVar make(size_t index, uint32_t piece) const override {
+    const TypedParam& var = vars_[index];
+    MeshPatch p = patch(patches_[piece]);
+    switch (var.declaration.storage) {
+    case StorageClass::kConstant: return constant_var(var, 0);
+    case StorageClass::kUniform: return constant_var(var, p.index());
+    case StorageClass::kVertex:
+      return u_.cubic ? bicubic_var(var, p.bicubic_points(), u_.basis, v_.basis)
+                      : bilinear_var(var, p.bilinear_points());
+    case StorageClass::kVarying:
+    case StorageClass::kFaceVarying: break;
+    }
+    return bilinear_var(var, p.corners());
+  }
+
+private:
+  MeshDirection u_, v_;
+  std::vector<Vec3> P_;
+  std::vector<TypedParam> vars_;
+  Matrix4 u_to_bezier_, v_to_bezier_;
+  std::vector<MeshPiece> patches_;
+};
+
+Box MeshPiece::bound(const UvRect& r) const {
+  return mesh_->cubic() ? mesh_->bicubic(*this).bound(r) : mesh_->bilinear(*this).bound(r);
+}
+
+void MeshPiece::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
+  if (mesh_->cubic())
+    mesh_->bicubic(*this).evaluate(u, v, out);
+  else
+    mesh_->bilinear(*this).evaluate(u, v, out);
+}
+
+bool MeshPiece::ruled() const {
+  return !mesh_->cubic();
+}
+
 } // namespace
 
 void add_patch_mesh(const MeshDirection& u, const MeshDirection& v, std::span<const Vec3> P,
                     std::span<const TypedParam> vars, const std::shared_ptr<const PrimitiveState>& state,
                     std::vector<Primitive>& out, std::span<const float> weights) {
   bool rational = std::any_of(weights.begin(), weights.end(), [&](float w) { return w != weights[0]; });
-  for (int j = 0; j < v.patches(); ++j)
-    for (int i = 0; i < u.patches(); ++i) {
-      MeshPatch patch(u, v, i, j);
-      Primitive& primitive = out.emplace_back();
-      primitive.state = state;
-      if (rational) primitive.geometry = rational_geometry(P, weights, patch, u, v);
-      if (!primitive.geometry) primitive.geometry = patch_geometry(P, patch, u, v);
-      primitive.uv = patch.uv();
-      for (const TypedParam& var : vars)
-        primitive.vars.push_back(patch_var(var, patch, u, v));
-    }
+  auto mesh = std::make_shared<MeshOfPatches>(u, v, P, vars);
+  size_t k = 0;
+  for (Primitive& primitive : add_pieces(mesh, state, out)) {
+    MeshPatch patch = mesh->patch(mesh->patches()[k++]);
+    primitive.uv = patch.uv();
+    if (!rational) continue;
+    if (auto geometry = rational_geometry(P, weights, patch, u, v)) primitive.geometry = std::move(geometry);
+  }
 }
 
 } // namespace render

@@ -43,43 +43,6 @@ template <class Points> Vec3 limit_normal(const Points& p, size_t order, double 
   return length > 0 ? Vec3(n / length) : Vec3(0.0f);
 }
 
-class BilinearPatch final : public Geometry {
-public:
-  explicit BilinearPatch(const std::array<Vec3, 4>& p) : p_(p) {}
-
-  Box bound(const UvRect& r) const override {
-    Box box;
-    for (float v : {r.v0, r.v1})
-      for (float u : {r.u0, r.u1})
-        box.add(point(u, v));
-    return box;
-  }
-
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.fill(u, v, [&](size_t k, float ui, float vj) {
-      out.P[k] = point(ui, vj);
-      out.dPdu[k] = du(vj);
-      out.dPdv[k] = dv(ui);
-      out.N[k] = normal(ui, vj);
-    });
-  }
-  bool ruled() const override { return true; }
-
-private:
-  Vec3 point(float u, float v) const {
-    return (p_[0] * (1 - u) + p_[1] * u) * (1 - v) + (p_[2] * (1 - u) + p_[3] * u) * v;
-  }
-  Vec3 du(float v) const { return (p_[1] - p_[0]) * (1 - v) + (p_[3] - p_[2]) * v; }
-  Vec3 dv(float u) const { return (p_[2] - p_[0]) * (1 - u) + (p_[3] - p_[1]) * u; }
-  Vec3 normal(float u, float v) const {
-    Vec3 n = glm::cross(du(v), dv(u));
-    float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]);
-    return glm::length(n) < kCollapsed * scale ? limit_normal(p_, 2, u, v) : n;
-  }
-
-  std::array<Vec3, 4> p_;
-};
-
 std::array<float, 4> bernstein_slope(float t) {
   float s = 1 - t;
   return {-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t};
@@ -98,60 +61,76 @@ void restrict_cubic(Vec3* p, size_t stride, float t0, float t1) {
     p[i * stride] = r[i];
 }
 
-class BicubicPatch final : public Geometry {
-public:
-  explicit BicubicPatch(const std::array<Vec3, 16>& p) : p_(p) {}
-
-  Box bound(const UvRect& r) const override {
-    std::array<Vec3, 16> q = p_;
-    for (size_t row = 0; row < 4; ++row)
-      restrict_cubic(&q[4 * row], 1, r.u0, r.u1);
-    for (size_t column = 0; column < 4; ++column)
-      restrict_cubic(&q[column], 4, r.v0, r.v1);
-    Box box;
-    for (Vec3 p : q)
-      box.add(p);
-    return box;
-  }
-
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    std::vector<Weights> columns;
-    for (float ui : u)
-      columns.push_back({bernstein(ui), bernstein_slope(ui)});
-    const float collapsed =
-        kCollapsed * (glm::dot(p_[15] - p_[0], p_[15] - p_[0]) + glm::dot(p_[12] - p_[3], p_[12] - p_[3]));
-    out.resize(u.size() * v.size());
-    size_t k = 0;
-    for (float vj : v) {
-      // The row is a cubic of u, and so is its change along v.
-      const std::array<float, 4> weight = bernstein(vj), slope = bernstein_slope(vj);
-      Vec3 row[4], change[4];
-      for (size_t i = 0; i < 4; ++i) {
-        row[i] = combine(&p_[i], 4, weight);
-        change[i] = combine(&p_[i], 4, slope);
-      }
-      for (size_t i = 0; i < u.size(); ++i, ++k) {
-        out.P[k] = combine(row, 1, columns[i].value);
-        out.dPdu[k] = combine(row, 1, columns[i].slope);
-        out.dPdv[k] = combine(change, 1, columns[i].value);
-        out.N[k] = glm::cross(out.dPdu[k], out.dPdv[k]);
-        if (glm::length(out.N[k]) < collapsed) out.N[k] = limit_normal(p_, 4, u[i], vj);
-      }
-    }
-  }
-
-private:
-  struct Weights {
-    std::array<float, 4> value, slope;
-  };
-  static Vec3 combine(const Vec3* p, size_t stride, const std::array<float, 4>& w) {
-    return p[0] * w[0] + p[stride] * w[1] + p[2 * stride] * w[2] + p[3 * stride] * w[3];
-  }
-
-  std::array<Vec3, 16> p_;
+struct Weights {
+  std::array<float, 4> value, slope;
 };
 
+Vec3 combine(const Vec3* p, size_t stride, const std::array<float, 4>& w) {
+  return p[0] * w[0] + p[stride] * w[1] + p[2 * stride] * w[2] + p[3 * stride] * w[3];
+}
+
 } // namespace
+
+Box BilinearPatch::bound(const UvRect& r) const {
+  Box box;
+  for (float v : {r.v0, r.v1})
+    for (float u : {r.u0, r.u1})
+      box.add(point(u, v));
+  return box;
+}
+
+void BilinearPatch::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
+  out.fill(u, v, [&](size_t k, float ui, float vj) {
+    out.P[k] = point(ui, vj);
+    out.dPdu[k] = du(vj);
+    out.dPdv[k] = dv(ui);
+    out.N[k] = normal(ui, vj);
+  });
+}
+
+Vec3 BilinearPatch::normal(float u, float v) const {
+  Vec3 n = glm::cross(du(v), dv(u));
+  float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]);
+  return glm::length(n) < kCollapsed * scale ? limit_normal(p_, 2, u, v) : n;
+}
+
+Box BicubicPatch::bound(const UvRect& r) const {
+  std::array<Vec3, 16> q = p_;
+  for (size_t row = 0; row < 4; ++row)
+    restrict_cubic(&q[4 * row], 1, r.u0, r.u1);
+  for (size_t column = 0; column < 4; ++column)
+    restrict_cubic(&q[column], 4, r.v0, r.v1);
+  Box box;
+  for (Vec3 p : q)
+    box.add(p);
+  return box;
+}
+
+void BicubicPatch::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
+  std::vector<Weights> columns;
+  for (float ui : u)
+    columns.push_back({bernstein(ui), bernstein_slope(ui)});
+  const float collapsed =
+      kCollapsed * (glm::dot(p_[15] - p_[0], p_[15] - p_[0]) + glm::dot(p_[12] - p_[3], p_[12] - p_[3]));
+  out.resize(u.size() * v.size());
+  size_t k = 0;
+  for (float vj : v) {
+    // The row is a cubic of u, and so is its change along v.
+    const std::array<float, 4> weight = bernstein(vj), slope = bernstein_slope(vj);
+    Vec3 row[4], change[4];
+    for (size_t i = 0; i < 4; ++i) {
+      row[i] = combine(&p_[i], 4, weight);
+      change[i] = combine(&p_[i], 4, slope);
+    }
+    for (size_t i = 0; i < u.size(); ++i, ++k) {
+      out.P[k] = combine(row, 1, columns[i].value);
+      out.dPdu[k] = combine(row, 1, columns[i].slope);
+      out.dPdv[k] = combine(change, 1, columns[i].value);
+      out.N[k] = glm::cross(out.dPdu[k], out.dPdv[k]);
+      if (glm::length(out.N[k]) < collapsed) out.N[k] = limit_normal(p_, 4, u[i], vj);
+    }
+  }
+}
 
 std::array<float, 4> bernstein(float t) {
   float s = 1 - t;
@@ -167,11 +146,17 @@ std::shared_ptr<const Geometry> make_bicubic(const std::array<Vec3, 16>& points)
 }
 
 void convert_to_bezier(const CubicBasis& u, const CubicBasis& v, float* values, size_t stride) {
-  Matrix4 from_bezier = inverse_or_identity(bezier_basis().matrix);
+  convert_to_bezier(to_bezier(u), to_bezier(v), values, stride);
+}
+
+Matrix4 to_bezier(const CubicBasis& basis) {
+  return inverse_or_identity(bezier_basis().matrix) * basis.matrix;
+}
+
+void convert_to_bezier(const Matrix4& u, const Matrix4& v, float* values, size_t stride) {
   // [t^3 t^2 t 1] M p = [t^3 t^2 t 1] B b, so b = B^-1 M p: along rows for u, along columns for v.
-  auto convert = [&](const Matrix4& basis, float* at, size_t step) {
+  auto convert = [&](const Matrix4& m, float* at, size_t step) {
     float in[4], out[4] = {};
-    Matrix4 m = from_bezier * basis;
     for (int i = 0; i < 4; ++i)
       in[i] = at[static_cast<size_t>(i) * step];
     for (int i = 0; i < 4; ++i)
@@ -181,9 +166,9 @@ void convert_to_bezier(const CubicBasis& u, const CubicBasis& v, float* values, 
       at[static_cast<size_t>(i) * step] = out[i];
   };
   for (size_t k = 0; k < 4; ++k)
-    convert(u.matrix, values + 4 * k * stride, stride);
+    convert(u, values + 4 * k * stride, stride);
   for (size_t k = 0; k < 4; ++k)
-    convert(v.matrix, values + k * stride, 4 * stride);
+    convert(v, values + k * stride, 4 * stride);
 }
 
 } // namespace render

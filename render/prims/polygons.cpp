@@ -1,44 +1,30 @@
 // Polygons to bilinear patches.
 #include "render/prims/polygons.h"
 
+#include "render/prims/mesh_pieces.h"
 #include "render/prims/patches.h"
 #include "render/prims/triangulate.h"
 #include "render/prims/typed_vars.h"
 
 #include <glm/common.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <unordered_map>
 
 namespace render {
 
 namespace {
 
-/// All values at the corners of one face, corner by corner, `width` floats each.
-struct CornerVar {
-  PatchVar head;
-  size_t width = 0;
-  std::vector<float> values;
+/// A face: its part of the vertex numbers, and of the loops.
+struct Face {
+  std::span<const int> vertices, loops;
 };
 
-CornerVar corner_values(const TypedParam& source, const PolygonFace& face) {
-  CornerVar out{var_head(source), 0, {}};
-  out.width = out.head.width();
-  for (size_t i = 0; i < face.vertices.size(); ++i) {
-    bool per_corner = source.declaration.storage == StorageClass::kFaceVarying;
-    append_value(source, per_corner ? face.first_corner + i : static_cast<size_t>(face.vertices[i]),
-                 out.values);
-  }
-  return out;
-}
-
-/// A convex part of a face: which of its corners.
-using Piece = std::vector<size_t>;
-
 /// The face seen along the axis nearest to its normal (Newell's), so that no coordinate is rounded.
-std::vector<glm::dvec2> flattened(const PolygonFace& face, std::span<const Vec3> P) {
+std::vector<glm::dvec2> flattened(const Face& face, std::span<const Vec3> P) {
   auto point = [&](size_t i) { return glm::dvec3(P[static_cast<size_t>(face.vertices[i])]); };
-  size_t n = face.loops.empty() ? face.vertices.size() : static_cast<size_t>(face.loops[0]);
+  auto n = static_cast<size_t>(face.loops[0]);
   glm::dvec3 normal(0.0);
   for (size_t i = 0; i < n; ++i)
     normal += glm::cross(point(i) - point(0), point((i + 1) % n) - point(0));
@@ -63,98 +49,179 @@ bool is_convex(std::span<const glm::dvec2> loop) {
   return true;
 }
 
-std::vector<Piece> convex_pieces(const PolygonFace& face, std::span<const Vec3> P) {
-  bool holes = face.loops.size() > 1;
-  Piece all(face.vertices.size());
-  std::iota(all.begin(), all.end(), size_t{0});
-  if (all.size() == 3 && !holes) return {all};
-  std::vector<glm::dvec2> flat = flattened(face, P);
-  if (!holes && is_convex(flat)) return {all};
-  int whole = static_cast<int>(all.size());
-  std::vector<Piece> out;
-  for (const Triangle& t : triangulate(flat, holes ? face.loops : std::span<const int>(&whole, 1)))
-    out.push_back({static_cast<size_t>(t[0]), static_cast<size_t>(t[1]), static_cast<size_t>(t[2])});
-  return out;
+/// Patches of a convex part with n corners.
+size_t patches_of(size_t n) {
+  return n == 4 ? 1 : n;
 }
 
-/// Weights of a piece's corners at the four corners of sub-patch `k`, in the order (0,0), (1,0), (0,1),
-/// (1,1).
-void sub_patch_weights(size_t n, size_t k, std::vector<float> (&weights)[4]) {
-  for (auto& w : weights)
-    w.assign(n, 0.0f);
-  if (n == 4) {
-    weights[0][0] = weights[1][1] = weights[2][3] = weights[3][2] = 1;
-    return;
+class PolygonMesh;
+
+/// One patch of a mesh.
+class PolygonPatch final : public Geometry {
+public:
+  PolygonPatch(const PolygonMesh& mesh, uint32_t face, uint32_t part)
+      : mesh_(&mesh), face_(face), part_(part) {}
+  Box bound(const UvRect& r) const override { return patch().bound(r); }
+  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+    patch().evaluate(u, v, out);
   }
-  weights[0][k] = 1;
-  weights[1][k] = weights[1][(k + 1) % n] = 0.5f;
-  weights[2][k] = weights[2][(k + n - 1) % n] = 0.5f;
-  weights[3].assign(n, 1 / static_cast<float>(n));
-}
+  bool ruled() const override { return true; }
+  uint32_t face() const { return face_; }
+  uint32_t part() const { return part_; }
 
-/// 0.5 a + 0.5 b is the same float in either order, so the middle of a shared side is the same point in both
-/// faces.
-PatchVar mix_corners(const CornerVar& corners, const Piece& piece, const std::vector<float> (&weights)[4]) {
-  PatchVar var = corners.head;
-  var.interpolation = Interpolation::kBilinear;
-  for (const auto& w : weights)
-    for (size_t c = 0; c < corners.width; ++c) {
-      float sum = 0;
-      for (size_t i = 0; i < w.size(); ++i)
-        if (w[i] != 0) sum += w[i] * corners.values[piece[i] * corners.width + c];
-      var.values.push_back(sum);
+private:
+  BilinearPatch patch() const;
+
+  const PolygonMesh* mesh_;
+  uint32_t face_, part_; ///< which patch of the face
+};
+
+class PolygonMesh final : public VarSource {
+public:
+  PolygonMesh(PolygonFaces faces, std::vector<Vec3> P, std::vector<TypedParam> vars);
+
+  std::span<const PolygonPatch> patches() const { return patches_; }
+  std::array<Vec3, 4> points(uint32_t face, uint32_t part) const;
+  size_t count() const override { return vars_.size() + (default_st_ ? 1 : 0); }
+  PatchVar make(size_t var, uint32_t piece) const override;
+
+private:
+  /// Corners of the convex part of a face that a patch belongs to.
+  struct Part {
+    size_t n = 0;                  ///< corners
+    size_t patch = 0;              ///< of its patches
+    size_t first = 0;              ///< corner 0 among all corners of the mesh
+    const Triangle* cut = nullptr; ///< which corners of the face, if it was cut
+    size_t corner(size_t i) const { return first + (cut ? static_cast<size_t>((*cut)[i]) : i); }
+  };
+  Part part(uint32_t face, uint32_t part) const;
+  void add_face(uint32_t face, const Face& corners);
+  size_t vertex(size_t corner) const { return static_cast<size_t>(vertices_[corner]); }
+
+  /// Calls add(corner, weight) for what makes up corner `q` of a patch, in the order (0,0), (1,0), (0,1),
+  /// (1,1). 0.5 a + 0.5 b is the same float in either order, so the middle of a shared side is the same point
+  /// in both faces.
+  template <class Add> static void mix(const Part& p, size_t q, Add&& add) {
+    if (p.n == 4) {
+      constexpr size_t kOrder[] = {0, 1, 3, 2};
+      add(p.corner(kOrder[q]), 1.0f);
+    } else if (q == 0) {
+      add(p.corner(p.patch), 1.0f);
+    } else if (q == 3) {
+      for (size_t i = 0; i < p.n; ++i)
+        add(p.corner(i), 1 / static_cast<float>(p.n));
+    } else {
+      add(p.corner(p.patch), 0.5f);
+      add(p.corner((p.patch + (q == 1 ? 1 : p.n - 1)) % p.n), 0.5f);
     }
-  return var;
+  }
+
+  std::vector<int> vertices_;
+  std::vector<uint32_t> first_corner_;                      ///< of each face, and the end
+  std::unordered_map<uint32_t, std::vector<Triangle>> cut_; ///< faces that are not convex
+  std::vector<Vec3> P_;
+  std::vector<TypedParam> vars_;
+  bool default_st_ = true;
+  std::vector<PolygonPatch> patches_;
+};
+
+BilinearPatch PolygonPatch::patch() const {
+  return BilinearPatch(mesh_->points(face_, part_));
 }
 
-CornerVar corner_points(std::string_view name, const PolygonFace& face, std::span<const Vec3> P,
-                        size_t width) {
-  CornerVar out;
-  out.head.name = name;
-  out.head.type = width == 3 ? slvm::Type::kPoint : slvm::Type::kFloat;
-  out.head.elements = width == 3 ? 0 : 2;
-  out.width = width;
-  for (int v : face.vertices)
-    for (size_t c = 0; c < width; ++c)
-      out.values.push_back(P[static_cast<size_t>(v)][static_cast<int>(c)]);
+PolygonMesh::PolygonMesh(PolygonFaces faces, std::vector<Vec3> P, std::vector<TypedParam> vars)
+    : vertices_(std::move(faces.vertices)), P_(std::move(P)), vars_(std::move(vars)) {
+  std::stable_partition(vars_.begin(), vars_.end(),
+                        [](const TypedParam& v) { return !interpolates(v.declaration.storage); });
+  for (const TypedParam& v : vars_)
+    if (v.declaration.name == "s" || v.declaration.name == "t" || v.declaration.name == "st")
+      default_st_ = false;
+  size_t count = faces.loops_of_face.empty() ? faces.loops.size() : faces.loops_of_face.size();
+  first_corner_.reserve(count + 1);
+  patches_.reserve(count);
+  size_t loop = 0, first = 0;
+  for (size_t f = 0; f < count; ++f) {
+    size_t loops = faces.loops_of_face.empty() ? 1 : static_cast<size_t>(faces.loops_of_face[f]), n = 0;
+    std::span<const int> own(faces.loops.data() + loop, loops);
+    for (int corners : own)
+      n += static_cast<size_t>(corners);
+    first_corner_.push_back(static_cast<uint32_t>(first));
+    add_face(static_cast<uint32_t>(f), {std::span<const int>(vertices_).subspan(first, n), own});
+    first += n;
+    loop += loops;
+  }
+  first_corner_.push_back(static_cast<uint32_t>(first));
+}
+
+void PolygonMesh::add_face(uint32_t f, const Face& face) {
+  size_t n = face.vertices.size(), patches = patches_of(n);
+  bool holes = face.loops.size() > 1;
+  if (n != 3 || holes) {
+    std::vector<glm::dvec2> flat = flattened(face, P_);
+    if (holes || !is_convex(flat)) {
+      std::vector<Triangle> cut = triangulate(flat, face.loops);
+      patches = 3 * cut.size();
+      cut_.emplace(f, std::move(cut));
+    }
+  }
+  for (size_t i = 0; i < patches; ++i)
+    patches_.emplace_back(*this, f, static_cast<uint32_t>(i));
+}
+
+PolygonMesh::Part PolygonMesh::part(uint32_t face, uint32_t part) const {
+  size_t first = first_corner_[face];
+  if (auto it = cut_.empty() ? cut_.end() : cut_.find(face); it != cut_.end())
+    return {3, part % 3, first, &it->second[part / 3]};
+  return {first_corner_[face + 1] - first, part, first};
+}
+
+std::array<Vec3, 4> PolygonMesh::points(uint32_t face, uint32_t number) const {
+  Part p = part(face, number);
+  std::array<Vec3, 4> out;
+  for (size_t q = 0; q < 4; ++q) {
+    Vec3 sum(0.0f);
+    mix(p, q, [&](size_t corner, float weight) { sum += weight * P_[vertex(corner)]; });
+    out[q] = sum;
+  }
   return out;
+}
+
+PatchVar PolygonMesh::make(size_t index, uint32_t piece) const {
+  const PolygonPatch& patch = patches_[piece];
+  Part p = part(patch.face(), patch.part());
+  if (index == vars_.size()) {
+    PatchVar st{"st", slvm::Type::kFloat, 2, Interpolation::kBilinear, {}, {}};
+    for (Vec3 point : points(patch.face(), patch.part())) {
+      st.values.push_back(point.x);
+      st.values.push_back(point.y);
+    }
+    return st;
+  }
+  const TypedParam& source = vars_[index];
+  StorageClass storage = source.declaration.storage;
+  if (!interpolates(storage))
+    return constant_var(source, storage == StorageClass::kUniform ? patch.face() : 0);
+  PatchVar var = var_head(source);
+  var.interpolation = Interpolation::kBilinear;
+  std::vector<float> value;
+  for (size_t q = 0; q < 4; ++q) {
+    size_t at = var.values.size();
+    var.values.resize(at + var.width());
+    mix(p, q, [&](size_t corner, float weight) {
+      value.clear();
+      append_value(source, storage == StorageClass::kFaceVarying ? corner : vertex(corner), value);
+      for (size_t c = 0; c < value.size(); ++c)
+        var.values[at + c] += weight * value[c];
+    });
+  }
+  return var;
 }
 
 } // namespace
 
-void add_polygon(const PolygonFace& face, std::span<const Vec3> P, std::span<const TypedParam> vars,
-                 const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
-  std::vector<PatchVar> constants;
-  std::vector<CornerVar> corners;
-  bool has_st = false;
-  for (const TypedParam& var : vars) {
-    const Declaration& d = var.declaration;
-    has_st = has_st || d.name == "s" || d.name == "t" || d.name == "st";
-    if (d.storage == StorageClass::kConstant)
-      constants.push_back(constant_var(var, 0));
-    else if (d.storage == StorageClass::kUniform)
-      constants.push_back(constant_var(var, face.index));
-    else
-      corners.push_back(corner_values(var, face));
-  }
-  if (!has_st) corners.push_back(corner_points("st", face, P, 2));
-  CornerVar positions = corner_points("P", face, P, 3);
-
-  std::vector<float> weights[4];
-  for (const Piece& piece : convex_pieces(face, P))
-    for (size_t k = 0; k < (piece.size() == 4 ? 1 : piece.size()); ++k) {
-      sub_patch_weights(piece.size(), k, weights);
-      PatchVar p = mix_corners(positions, piece, weights);
-      std::array<Vec3, 4> points;
-      for (size_t i = 0; i < 4; ++i)
-        points[i] = {p.values[3 * i], p.values[3 * i + 1], p.values[3 * i + 2]};
-      Primitive& primitive = out.emplace_back();
-      primitive.state = state;
-      primitive.geometry = make_bilinear(points);
-      primitive.vars = constants;
-      for (const CornerVar& c : corners)
-        primitive.vars.push_back(mix_corners(c, piece, weights));
-    }
+void add_polygons(PolygonFaces faces, std::vector<Vec3> P, std::vector<TypedParam> vars,
+                  const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
+  add_pieces(std::make_shared<PolygonMesh>(std::move(faces), std::move(P), std::move(vars)), state, out);
 }
 
 } // namespace render

@@ -11,18 +11,17 @@
 
 namespace render {
 
-/// One face: indices into the vertices, and where it stands in per-face and per-corner data.
-struct PolygonFace {
-  std::span<const int> vertices;
-  size_t index = 0;        ///< of the face
-  size_t first_corner = 0; ///< of its first corner among all corners
-  /// Vertices of the outline and of each hole; empty: there are no holes.
-  std::span<const int> loops = {};
+/// The faces of one request, by numbers of vertices.
+struct PolygonFaces {
+  std::vector<int> vertices;      ///< of all loops of all faces, one after another
+  std::vector<int> loops;         ///< how many of them each loop has: three or more
+  std::vector<int> loops_of_face; ///< the outline and the holes of each face; empty: every loop is a face
 };
 
-/// Appends the patches of one face; each loop has three or more vertices. `P` holds the vertex positions.
-/// Without s, t or st among `vars`, st is the object-space x and y (RISpec 3.2, 5.1).
-void add_polygon(const PolygonFace& face, std::span<const Vec3> P, std::span<const TypedParam> vars,
-                 const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+/// Appends the patches of all faces. `P` holds the vertex positions. Sizes of the variables: one value for
+/// each face, vertex, or corner of a face. Without s, t or st among them, st is the object-space x and y
+/// (RISpec 3.2, 5.1). All patches share what is given here.
+void add_polygons(PolygonFaces faces, std::vector<Vec3> P, std::vector<TypedParam> vars,
+                  const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
 
 } // namespace render

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "render/prims/geometry.h"
-#include "render/prims/primvar.h"
+#include "render/prims/patch_vars.h"
+#include "render/prims/solid.h"
 #include "render/state/attributes.h"
 
 #include <memory>
@@ -23,18 +24,22 @@ struct PrimitiveState {
   std::shared_ptr<const Attributes> attributes;
   Matrix4 object_to_camera; ///< when the shutter opens
   Matrix4 camera_to_object;
-  MotionMatrices motion;        ///< object to camera from time 0 to 1; empty: it stands still
-  bool mirrored = false;        ///< object_to_camera changes handedness
-  float displacement_bound = 0; ///< farthest a displacement shader moves a point, in camera space
+  MotionMatrices motion;                    ///< object to camera from time 0 to 1; empty: it stands still
+  bool mirrored = false;                    ///< object_to_camera changes handedness
+  float displacement_bound = 0;             ///< farthest a displacement shader moves a point, in camera space
+  std::shared_ptr<const SolidTree> solid;   ///< that the surface bounds a primitive of; null: none
+  SolidTree::NodeIndex solid_primitive = 0; ///< which
+  LevelPart level; ///< the samples that see it, where a level of detail goes over into another
 };
 
 struct Primitive {
   std::shared_ptr<const PrimitiveState> state;
   std::shared_ptr<const Geometry> geometry; ///< when the shutter opens
-  std::vector<PatchVar> vars;
+  PatchVars vars;
   /// The part of the shaders' u and v that this surface is: patches of a mesh share one square.
   UvRect uv = {};
   MotionShapes deformation = {}; ///< from time 0 to 1; empty: it keeps its shape
+  bool one_across = false;       ///< one micropolygon in u: hair
 
   const Attributes& attributes() const { return *state->attributes; }
   /// Box of a part in camera space, displacement and motion included. Points go in straight lines: what holds

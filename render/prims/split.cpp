@@ -1,6 +1,8 @@
 // Bound, cull, split.
 #include "render/prims/split.h"
 
+#include "render/prims/micropolygon_size.h"
+
 #include <cmath>
 
 namespace render {
@@ -31,7 +33,8 @@ public:
   Splitter(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
            std::vector<GridTask>& out)
       : primitive_(primitive), index_(index), settings_(settings), camera_(*settings.camera), out_(out),
-        step_(std::sqrt(primitive.attributes().shading_rate)) {}
+        step_(micropolygon_side(primitive, camera_, settings.motion)),
+        dicing_(primitive.attributes().dicing) {}
 
   void run() {
     stack_.push_back({});
@@ -56,6 +59,7 @@ private:
   const Camera& camera_;
   std::vector<GridTask>& out_;
   float step_; ///< side of a micropolygon in pixels
+  const Dicing& dicing_;
   std::vector<Piece> stack_;
   size_t pieces_ = 0;
 };
@@ -64,8 +68,9 @@ void Splitter::visit(const Piece& piece) {
   ++pieces_;
   Box box = primitive_.camera_bound(piece.rect);
   // A box that is not a number is of no use to anyone; the negated test catches it.
-  if (!(box.max.z >= camera_.near_plane()) || !(box.min.z <= camera_.far_plane()) || outside_frustum(box))
-    return;
+  // Surfaces of solids count also where they are too far to be seen.
+  bool too_far = !(box.min.z <= camera_.far_plane()) && !primitive_.state->solid;
+  if (!(box.max.z >= camera_.near_plane()) || too_far || outside_frustum(box)) return;
 
   // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the
   // picture.
@@ -92,6 +97,7 @@ void Splitter::visit(const Piece& piece) {
   auto fewest = primitive_.geometry->coarsest();
   int nu = segments(e.u / step_, width * static_cast<float>(fewest[0])),
       nv = segments(e.v / step_, height * static_cast<float>(fewest[1]));
+  if (primitive_.one_across) nu = 1;
   // Pieces larger than any image come a few at a time, or there is no end to them.
   if (std::max(nu, nv) == kMostSegments) pieces_ += kCostOfHuge;
   bool too_small = width < kSmallest || height < kSmallest || pieces_ > kMostPieces;
@@ -102,6 +108,7 @@ void Splitter::visit(const Piece& piece) {
   // What cannot be split any more is diced as finely as one grid allows.
   while (nu * nv > settings_.grid_size)
     (nu >= nv ? nu : nv) = std::max(nu, nv) / 2;
+  task.step = step_;
   task.nu = nu + 1;
   task.nv = nv + 1;
   out_.push_back(task);
@@ -109,10 +116,12 @@ void Splitter::visit(const Piece& piece) {
 
 /// Segments for a side that is `wanted` micropolygons long. Curved surfaces take powers of two, so that
 /// neighbouring grids can agree on their outlines (stitch.h); the side of a micropolygon is then 0.66 to 1.32
-/// of what was asked for.
+/// of what was asked for. Attribute "dice" "binary" asks for the same of others.
 int Splitter::segments(float wanted, float fewest) const {
-  if (primitive_.geometry->ruled())
+  bool ruled = primitive_.geometry->ruled();
+  if (ruled && !dicing_.binary)
     return static_cast<int>(std::clamp(std::ceil(wanted), 1.0f, float{kMostSegments}));
+  if (ruled) fewest = 1;
   constexpr float kStretch = 1.32f;
   int n = 1;
   while (n < kMostSegments && (static_cast<float>(n) * kStretch < wanted || fewest > static_cast<float>(n)))
@@ -164,6 +173,7 @@ void Splitter::raster_bound(const Box& box, GridTask& task) const {
 }
 
 /// Longest row and column of a coarse lattice, in pixels or (for pieces behind the eye) in camera space.
+/// Where orientation is not to count, a line of the lattice is as long as if it faced the eye.
 Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
   int segments = primitive_.geometry->ruled() ? 1 : kProbes;
   int n = segments + 1;
@@ -176,19 +186,26 @@ Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
   SurfaceLattice lattice;
   auto count = static_cast<size_t>(n);
   primitive_.geometry->evaluate({u, count}, {v, count}, lattice);
-  Vec3 p[(kProbes + 1) * (kProbes + 1)];
+  Vec3 p[(kProbes + 1) * (kProbes + 1)], there[(kProbes + 1) * (kProbes + 1)];
   for (size_t k = 0; k < lattice.P.size(); ++k) {
     p[k] = transform_point(primitive_.state->object_to_camera, lattice.P[k]);
     if (!in_raster) continue;
     if (camera_.perspective()) p[k].z = std::max(p[k].z, camera_.near_plane());
+    there[k] = p[k];
     p[k] = Vec3(camera_.project(p[k]), 0);
   }
+  auto length = [&](int a, int b) {
+    float seen = glm::distance(p[a], p[b]);
+    if (!in_raster || dicing_.raster_oriented) return seen;
+    float z = 0.5f * (there[a].z + there[b].z);
+    return std::max(seen, glm::distance(there[a], there[b]) * camera_.pixels_per_unit(z));
+  };
   Extent e;
   for (int j = 0; j < n; ++j) {
     float row = 0, column = 0;
     for (int i = 0; i < segments; ++i) {
-      row += glm::distance(p[j * n + i], p[j * n + i + 1]);
-      column += glm::distance(p[i * n + j], p[(i + 1) * n + j]);
+      row += length(j * n + i, j * n + i + 1);
+      column += length(i * n + j, (i + 1) * n + j);
     }
     e.u = std::max(e.u, row);
     e.v = std::max(e.v, column);
@@ -200,7 +217,7 @@ Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
 
 void split_primitive(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
                      std::vector<GridTask>& out) {
-  Splitter(primitive, index, settings, out).run();
+  if (primitive.attributes().rays.camera) Splitter(primitive, index, settings, out).run();
 }
 
 } // namespace render

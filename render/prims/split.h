@@ -18,6 +18,7 @@ struct GridTask {
   int nu = 2, nv = 2; ///< points of its lattice
   Vec2 raster_min, raster_max;
   float zmin = 0; ///< nearest camera z of its bound
+  float step = 1; ///< side of a micropolygon in pixels
 };
 
 struct SplitSettings {
@@ -25,10 +26,11 @@ struct SplitSettings {
   Vec2 raster_min, raster_max; ///< the area samples can lie in
   int grid_size = 256;         ///< micropolygons in a grid, at most
   int eye_splits = 10;
+  bool motion = true; ///< what moves is drawn moving
 };
 
 /// Appends the visible pieces of scene primitive `index`, in an order that depends on nothing but the
-/// arguments.
+/// arguments. What the camera does not see (Attribute "visibility" "camera" 0) has none.
 void split_primitive(const Primitive& primitive, uint32_t index, const SplitSettings& settings,
                      std::vector<GridTask>& out);
 

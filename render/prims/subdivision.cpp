@@ -22,16 +22,25 @@ namespace Sdc = OpenSubdiv::Sdc;
 using Vec3d = glm::dvec3;
 using Refiner = std::unique_ptr<Far::TopologyRefiner>;
 
-/// The part of a face that is a primitive: a quarter of the face from a corner to the centre, or all of it.
+/// The part of a face that is a primitive: a quarter of the face from a corner to the centre, or all of it;
+/// of a triangle always a third.
 struct FacePart {
   Bfr::Parameterization parameters;
   int quarter = -1;
 
+  bool of_triangle() const { return parameters.GetType() == Bfr::Parameterization::TRI; }
   /// OpenSubdiv's coordinates of (u,v) in the part.
   void locate(double u, double v, double (&out)[2]) const {
     out[0] = u;
     out[1] = v;
     if (quarter < 0) return;
+    if (of_triangle()) {
+      double q[4][2];
+      corners_in_triangle(q);
+      for (int c = 0; c < 2; ++c)
+        out[c] = (q[0][c] * (1 - u) + q[1][c] * u) * (1 - v) + (q[2][c] * (1 - u) + q[3][c] * u) * v;
+      return;
+    }
     if (parameters.HasSubFaces()) {
       double in[2] = {u, v};
       parameters.ConvertNormalizedSubFaceToCoord(quarter, in, out);
@@ -42,6 +51,20 @@ struct FacePart {
                      kAlong[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     for (int c = 0; c < 2; ++c)
       out[c] = kCorner[quarter][c] + 0.5 * (u * kAlong[quarter][c] + v * kAlong[(quarter + 1) % 4][c]);
+  }
+
+private:
+  /// A corner of the triangle, the middles of its two sides, the centre.
+  void corners_in_triangle(double (&q)[4][2]) const {
+    constexpr double kCorner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    for (int c = 0; c < 2; ++c) {
+      double own = kCorner[quarter][c], next = kCorner[(quarter + 1) % 3][c],
+             last = kCorner[(quarter + 2) % 3][c];
+      q[0][c] = own;
+      q[1][c] = 0.5 * (own + next);
+      q[2][c] = 0.5 * (own + last);
+      q[3][c] = 1 / 3.0;
+    }
   }
 };
 
@@ -68,7 +91,11 @@ public:
     surface_.Evaluate(uv, points_.data(), Bfr::Surface<double>::PointDescriptor(width_), value, du, dv,
                       duu.data(), duv, dvv.data());
   }
-  bool polynomial() const { return surface_.IsRegular() && !surface_.IsLinear(); }
+  /// Of degree 3 in u and v.
+  bool polynomial() const {
+    return surface_.IsRegular() && !surface_.IsLinear() &&
+           surface_.GetParameterization().GetType() != Bfr::Parameterization::TRI;
+  }
   bool linear() const { return surface_.IsLinear(); }
   int width() const { return width_; }
   /// A box of all control points, which holds the limit surface.
@@ -90,13 +117,15 @@ private:
 struct Chain {
   double uu, uv, vu, vv; ///< d(face u, face v)/d(part u), the same for part v
 
-  explicit Chain(const FacePart& part) {
-    double o[2], x[2], y[2];
-    part.locate(0.25, 0.25, o);
-    part.locate(0.75, 0.25, x);
-    part.locate(0.25, 0.75, y);
+  /// At a place of the part, along whose two axes the map from part to face is straight.
+  Chain(const FacePart& part, double u, double v) {
+    double o[2], x[2], y[2], z[2];
+    part.locate(0.25, v, o);
+    part.locate(0.75, v, x);
+    part.locate(u, 0.25, y);
+    part.locate(u, 0.75, z);
     uu = 2 * (x[0] - o[0]), uv = 2 * (x[1] - o[1]);
-    vu = 2 * (y[0] - o[0]), vv = 2 * (y[1] - o[1]);
+    vu = 2 * (z[0] - y[0]), vv = 2 * (z[1] - y[1]);
   }
 };
 
@@ -106,7 +135,7 @@ std::vector<float> bezier_values(const FaceSurface& face, const FacePart& part) 
   auto width = static_cast<size_t>(face.width());
   std::vector<float> out(16 * width);
   std::vector<double> p(width), fu(width), fv(width), fuv(width);
-  Chain chain(part);
+  Chain chain(part, 0.5, 0.5);
   for (size_t j = 0; j < 2; ++j)
     for (size_t i = 0; i < 2; ++i) {
       double uv[2];
@@ -133,7 +162,7 @@ std::vector<float> bezier_values(const FaceSurface& face, const FacePart& part) 
 class IrregularFace final : public Geometry {
 public:
   IrregularFace(std::shared_ptr<const FaceSurface> face, const FacePart& part)
-      : face_(std::move(face)), part_(part), chain_(part), hull_(face_->hull()) {}
+      : face_(std::move(face)), part_(part), hull_(face_->hull()) {}
 
   /// A lattice of points and room for what bulges between them, at most the hull of the control points.
   Box bound(const UvRect& r) const override {
@@ -178,13 +207,13 @@ private:
     Vec3d fu, fv;
     part_.locate(u, v, uv);
     face_->at(uv, &p.x, &fu.x, &fv.x);
-    du = fu * chain_.uu + fv * chain_.uv;
-    dv = fu * chain_.vu + fv * chain_.vv;
+    Chain chain(part_, u, v);
+    du = fu * chain.uu + fv * chain.uv;
+    dv = fu * chain.vu + fv * chain.vv;
   }
 
   std::shared_ptr<const FaceSurface> face_;
   FacePart part_;
-  Chain chain_;
   Box hull_;
 };
 
@@ -241,13 +270,16 @@ public:
   }
 
   slvm::Result<size_t> run(const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
+    if (mesh_.loop &&
+        std::any_of(mesh_.nvertices.begin(), mesh_.nvertices.end(), [](int n) { return n != 3; }))
+      return slvm::Error{"the scheme \"loop\" takes triangles only"};
     Refiner refiner = make_refiner();
     if (!refiner)
       return slvm::Error{
           "the faces do not make a mesh: one has too many corners, or a vertex too many edges"};
     Bfr::RefinerSurfaceFactory<> factory(*refiner);
-    bool all_quads =
-        std::all_of(mesh_.nvertices.begin(), mesh_.nvertices.end(), [](int n) { return n == 4; });
+    bool all_quads = !mesh_.loop && std::all_of(mesh_.nvertices.begin(), mesh_.nvertices.end(),
+                                                [](int n) { return n == 4; });
     size_t made = 0;
     for (size_t face = 0; face < mesh_.nvertices.size(); ++face) {
       auto surface = std::make_shared<FaceSurface>(positions_, 3);
@@ -322,7 +354,10 @@ private:
     options.SetFVarLinearInterpolation(kFaceVarying[mesh_.facevarying_boundary]);
     if (mesh_.chaikin) options.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
     using Factory = Far::TopologyRefinerFactory<Topology>;
-    Factory::Options create(mesh_.bilinear ? Sdc::SCHEME_BILINEAR : Sdc::SCHEME_CATMARK, options);
+    Factory::Options create(mesh_.loop       ? Sdc::SCHEME_LOOP
+                            : mesh_.bilinear ? Sdc::SCHEME_BILINEAR
+                                             : Sdc::SCHEME_CATMARK,
+                            options);
     create.validateFullTopology = true;
     // What is wrong is said by the caller, not printed by the library.
     Far::SetErrorCallback([](Far::ErrorType, const char*) {});

@@ -12,6 +12,7 @@ namespace render {
 
 struct SubdivisionMesh {
   bool bilinear = false; ///< only split, not smoothed
+  bool loop = false;     ///< Loop's scheme for triangles
   std::span<const int> nvertices, vertices;
   std::vector<int> holes;
   std::vector<int> crease_pairs; ///< two vertices an edge

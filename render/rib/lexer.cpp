@@ -41,8 +41,13 @@ void Lexer::skip_blanks() {
     if (is_blank(text_[at_])) {
       advance();
     } else if (text_[at_] == '#') {
+      uint32_t first_column = column();
+      size_t begin = at_ + 1;
       while (at_ < text_.size() && text_[at_] != '\n' && text_[at_] != '\r')
         ++at_;
+      if (keep_comments)
+        comments.push_back(
+            {std::string(text_.substr(begin, at_ - begin)), {file_, line_, first_column, column()}});
     } else {
       return;
     }

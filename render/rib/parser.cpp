@@ -16,12 +16,14 @@ class Parser {
 public:
   Parser(TokenStream& tokens, RiTarget& target, slvm::Diagnostics& diagnostics)
       : tokens_(tokens), target_(target), diagnostics_(diagnostics) {
+    tokens_.keep_comments = target_.wants_comments();
     take();
   }
   void run();
 
 private:
   void take() { tokens_.next(token_); }
+  void hand_on_comments();
   void recover();
   bool fail(std::string text);
   bool fail_expected(std::string_view what);
@@ -51,7 +53,7 @@ private:
 };
 
 void Parser::run() {
-  while (token_.kind != TokenKind::kEnd) {
+  while (hand_on_comments(), token_.kind != TokenKind::kEnd) {
     if (token_.kind != TokenKind::kWord) {
       if (token_.kind == TokenKind::kError)
         diagnostics_.error(token_.where, token_.text + place());
@@ -76,6 +78,12 @@ void Parser::run() {
     else
       recover();
   }
+}
+
+void Parser::hand_on_comments() {
+  for (const Comment& c : tokens_.comments)
+    target_.comment(c.text, c.where);
+  tokens_.comments.clear();
 }
 
 /// Skips to a request's name. Unknown words stop only outside of argument lists, where run() names them; a

@@ -91,8 +91,8 @@ struct Table {
 };
 
 const Table& table() {
-  static const Table t;
-  return t;
+  static const Table kTable;
+  return kTable;
 }
 
 } // namespace

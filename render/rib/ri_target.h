@@ -13,6 +13,10 @@ public:
   /// A word that is no request; its arguments have been skipped. `suggestion` may be empty.
   virtual void unknown_request(std::string_view name, std::string_view suggestion,
                                slvm::SourceRange where) = 0;
+  /// Whether comment() is to be called.
+  virtual bool wants_comments() const { return false; }
+  /// A comment between requests, without its first # and the line end. One inside a request comes after it.
+  virtual void comment(std::string_view /*text*/, slvm::SourceRange /*where*/) {}
 };
 
 } // namespace render

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace render {
 
@@ -32,9 +33,17 @@ struct Token {
   bool is_number() const { return kind == TokenKind::kInteger || kind == TokenKind::kReal; }
 };
 
+struct Comment {
+  std::string text; ///< without the first # and the line end
+  slvm::SourceRange where;
+};
+
 class TokenStream {
 public:
   virtual ~TokenStream() = default;
+  /// With `keep_comments` those that next() passes are gathered, until their reader clears them.
+  bool keep_comments = false;
+  std::vector<Comment> comments;
   /// Replaces `token` by the next one; kEnd again and again at the end.
   virtual void next(Token& token) = 0;
   /// Takes back the last token and moves what follows the token before it, from the next line on, into

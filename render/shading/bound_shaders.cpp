@@ -97,9 +97,13 @@ private:
 
 /// Sets of attributes with an instance that was bound too narrowly are bound again.
 void BoundShaders::Binder::bind_all(std::span<const Primitive> primitives) {
-  for (const Primitive& p : primitives)
+  const VarSource* last = nullptr; // the faces of a mesh have the same variables
+  for (const Primitive& p : primitives) {
+    if (p.vars.source() == last) continue;
+    last = p.vars.source();
     for (const PatchVar& v : p.vars)
       variables_.insert(v.name);
+  }
   std::set<const Attributes*> seen;
   for (const Primitive& p : primitives) {
     const std::shared_ptr<const Attributes>& a = p.state->attributes;

@@ -32,6 +32,9 @@ public:
   bool renderer_info(const slvm::ShadingState&, std::string_view name, slvm::Value& out) override;
   void print(const slvm::ShadingState&, std::string_view text) override;
   slvm::TextureServices* textures() override { return &textures_; }
+  slvm::RayServices* rays() override { return rays_; }
+  /// Who traces rays, which asks these services in turn.
+  void set_rays(slvm::RayServices* rays) { rays_ = rays; }
 
 private:
   struct Space {
@@ -42,6 +45,7 @@ private:
   const Scene& scene_;
   const BoundShaders& shaders_;
   slvm::TextureServices& textures_;
+  slvm::RayServices* rays_ = nullptr;
   std::function<void(std::string_view)> print_;
   std::mutex print_mutex_;
   mutable std::shared_mutex spaces_mutex_;

@@ -2,7 +2,9 @@
 // primitives and copied when a request changes it.
 #pragma once
 
+#include "render/state/level_of_detail.h"
 #include "render/state/math.h"
+#include "render/state/ray_attributes.h"
 #include "render/state/shader_request.h"
 #include "slvm/value.h"
 
@@ -27,12 +29,25 @@ struct CubicBasis {
 };
 CubicBasis bezier_basis();
 
+/// How the micropolygons of a surface are cut: Attribute "dice", GeometricApproximation.
+struct Dicing {
+  bool raster_oriented = true; ///< false: sizes as if the surface faced the eye
+  bool binary = false;         ///< powers of two, also where nothing asks for them
+  bool hair = false;           ///< curves are one micropolygon wide
+  float shortest = 0;          ///< side of a micropolygon in pixels, at least
+  float motion_factor = 1, focus_factor = 1;
+};
+
 struct Attributes {
   Color color{1, 1, 1}, opacity{1, 1, 1};
   bool matte = false;
   int sides = 2;
   Orientation orientation = Orientation::kOutside;
   float shading_rate = 1;
+  Dicing dicing;
+  bool stitch = true;            ///< grids of curved surfaces are fitted to each other
+  float back_face_tolerance = 0; ///< degrees that one-sided surfaces may face away
+  LevelOfDetail detail;
   bool smooth_shading = false;
   std::array<float, 8> texture_coordinates{0, 0, 1, 0, 0, 1, 1, 1};
   CubicBasis ubasis = bezier_basis(), vbasis = bezier_basis();
@@ -50,6 +65,7 @@ struct Attributes {
   std::map<std::string, slvm::Value> named;
   /// Attribute "cull": false shades what cannot be seen, too, as baking needs it.
   bool cull_hidden = true, cull_backfacing = true;
+  RayAttributes rays;
   /// Spaces named by ScopedCoordinateSystem, to camera.
   std::map<std::string, Matrix4> scoped_spaces;
 

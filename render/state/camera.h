@@ -3,6 +3,8 @@
 
 #include "render/state/options.h"
 
+#include <cmath>
+
 namespace render {
 
 struct PixelRect {
@@ -32,6 +34,11 @@ public:
     float w = z * m[11] + m[15], x = raster.x * w - z * m[8] - m[12], y = raster.y * w - z * m[9] - m[13];
     float determinant = m[0] * m[5] - m[1] * m[4];
     return {(x * m[5] - y * m[4]) / determinant, (y * m[0] - x * m[1]) / determinant, z};
+  }
+  /// Pixels that a length of 1 at depth z takes when it faces the eye: the mean of both directions.
+  float pixels_per_unit(float z) const {
+    const auto& m = to_raster_.m;
+    return std::sqrt(std::abs(m[0] * m[5] - m[1] * m[4])) / std::abs(z * m[11] + m[15]);
   }
   bool perspective() const { return perspective_; }
   /// The eye: the origin (also for orthographic cameras, where I is (0,0,z)).

@@ -159,11 +159,15 @@ slvm::Result<Declaration> Declarations::declare(std::string_view name, std::stri
   return d;
 }
 
+const Declaration* Declarations::find(std::string_view name) const {
+  auto it = names_.find(name);
+  return it == names_.end() ? nullptr : &it->second;
+}
+
 slvm::Result<Declaration> Declarations::resolve(std::string_view token) const {
   std::vector<std::string_view> words = split_words(token);
   if (words.size() == 1) {
-    auto it = names_.find(words[0]);
-    if (it != names_.end()) return it->second;
+    if (const Declaration* known = find(words[0])) return *known;
     std::vector<std::string_view> known;
     for (const auto& [name, d] : names_)
       known.push_back(name);

@@ -40,6 +40,8 @@ public:
   /// A token as it stands in a parameter list: inline declaration or declared name. The error names the
   /// nearest declared name.
   slvm::Result<Declaration> resolve(std::string_view token) const;
+  /// A declared name, or nullptr.
+  const Declaration* find(std::string_view name) const;
 
 private:
   std::map<std::string, Declaration, std::less<>> names_;

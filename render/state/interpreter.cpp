@@ -1,6 +1,6 @@
 // The dispatch of requests: which member function carries out which, where they are legal, messages. The
-// requests themselves: interpreter_blocks.cpp, _motion.cpp, _archives.cpp, _conditions.cpp, _options.cpp,
-// _attributes.cpp, _transforms.cpp, _geometry.cpp.
+// requests themselves: interpreter_blocks.cpp, _solids.cpp, _motion.cpp, _archives.cpp, _conditions.cpp,
+// _options.cpp, _parameters.cpp, _attributes.cpp, _detail.cpp, _transforms.cpp, _geometry.cpp.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -47,8 +47,10 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kImager, &I::imager), set(kQuantize, &I::quantize), set(kDisplay, &I::display),
         set(kDisplayChannel, &I::display_channel);
     set(kDepthOfField, &I::depth_of_field), set(kHider, &I::hider), set(kOption, &I::option);
+    set(kRelativeDetail, &I::relative_detail), set(kDetail, &I::detail), set(kDetailRange, &I::detail_range);
+    set(kGeometricApproximation, &I::geometric_approximation);
 
-    set(kMakeTexture, &I::make_request), set(kMakeShadow, &I::make_request);
+    set(kMakeTexture, &I::make_request), set(kMakeShadow, &I::make_request), set(kMakeBump, &I::make_request);
     set(kMakeLatLongEnvironment, &I::make_request), set(kMakeCubeFaceEnvironment, &I::make_request);
 
     set(kAttribute, &I::attribute), set(kColor, &I::color), set(kOpacity, &I::opacity);
@@ -103,16 +105,22 @@ void Interpreter::carry_out(const RequestCall& call) {
 }
 
 void Interpreter::call_handler(const RequestCall& call) {
-  if (Handler h = handler(call.id)) (this->*h)(call);
+  if ((is_primitive(call.id) || call.id == RequestId::kProcedural) && out_of_detail()) return;
+  Handler h = handler(call.id);
+  if (h && solid_.in_operation() && is_primitive(call.id))
+    call_in_operation(call);
+  else if (h)
+    (this->*h)(call);
 }
 
 bool Interpreter::legal(const RequestCall& call) {
   const RequestInfo& info = call.info();
   if (in_world_ ? info.world : info.outside) return true;
   if (in_world_)
-    error(call, "options cannot change inside a world block; the request is skipped");
+    error(call, "options cannot change inside a world block; the request is skipped", RiError::kNotOptions);
   else
-    error(call, "this belongs between WorldBegin and WorldEnd; the request is skipped");
+    error(call, "this belongs between WorldBegin and WorldEnd; the request is skipped",
+          is_primitive(call.id) ? RiError::kNotPrimitives : RiError::kIllegalState);
   return false;
 }
 
@@ -123,6 +131,7 @@ void Interpreter::finish() {
                                    recording_.name, request_info(recording_.end).name));
   for (const Block& b : blocks_)
     diagnostics_.error(b.where, "this block is not closed before the end of the file");
+  if (recording_.depth > 0 || !blocks_.empty()) error_kind_ = RiError::kNesting;
   if (in_world_) diagnostics_.error(blocks_.front().where, "nothing is rendered: WorldEnd is missing");
 }
 
@@ -133,12 +142,14 @@ void Interpreter::unknown_request(std::string_view name, std::string_view sugges
             fmt::format("unknown request {}{}", name, hint));
 }
 
-void Interpreter::error(const RequestCall& call, std::string_view text) {
-  error_at(call.where, call, text);
+void Interpreter::error(const RequestCall& call, std::string_view text, RiError kind) {
+  error_at(call.where, call, text, kind);
 }
 
-void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std::string_view text) {
+void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std::string_view text,
+                           RiError kind) {
   if (error_handler_ == ErrorHandling::kIgnore) return;
+  error_kind_ = kind;
   diagnostics_.error(where, fmt::format("{}: {}", call.info().name, text));
 }
 
@@ -184,7 +195,7 @@ bool Interpreter::stopped(const RequestCall& call) {
 
 void Interpreter::declare(const RequestCall& call) {
   auto d = declarations_.declare(call.text(0), call.text(1));
-  if (!d) error_at(call.arguments[1].where, call, d.error());
+  if (!d) error_at(call.arguments[1].where, call, d.error(), RiError::kSyntax);
 }
 
 void Interpreter::version(const RequestCall& call) {

@@ -2,8 +2,11 @@
 // each world block over as a Scene. One member function per request; requests.def says which are legal where.
 #pragma once
 
+#include "render/prims/class_sizes.h"
 #include "render/prims/motion.h"
+#include "render/rib/ri_error.h"
 #include "render/rib/ri_target.h"
+#include "render/state/plug_in.h"
 #include "render/state/procedural.h"
 #include "render/state/program.h"
 #include "render/state/scene.h"
@@ -12,15 +15,13 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <span>
+#include <utility>
 
 namespace render {
 
+class BlobbyGround;
 struct SubdivisionMesh;
-
-/// Values of each storage class a primitive takes (rib-reference: class sizes).
-struct ClassSizes {
-  size_t uniform = 1, varying = 4, vertex = 4, facevarying = 4;
-};
 
 /// Requests that change the current transformation.
 bool is_transformation(RequestId);
@@ -38,6 +39,8 @@ public:
 
   void request(const RequestCall& call) override;
   void unknown_request(std::string_view name, std::string_view suggestion, slvm::SourceRange where) override;
+  bool wants_comments() const override { return static_cast<bool>(on_comment); }
+  void comment(std::string_view text, slvm::SourceRange) override { on_comment(text); }
 
   /// Parses a file with the state as it is. False: it could not be read (reported).
   bool read_file(const std::string& name);
@@ -57,12 +60,34 @@ public:
   size_t most_replayed = 100'000'000;
   /// Whether RunProgram may run what a scene names.
   bool allow_programs = false;
+  /// Whether it may run what requests name that do not come from a file: those of a C program.
+  bool allow_own_programs = false;
   ProgramLimits program_limits;
+  /// The only folders from which DynamicLoad loads plug-ins: those the user named, never a scene's.
+  std::vector<std::string> procedural_folders;
+  /// Called instead of a plug-in's functions, which are its second argument: it leads what they request here.
+  std::function<void(slvm::SourceRange procedural, const std::function<void()>& functions)> around_plug_in;
+  /// Comments of files read from now on, without the first #.
+  std::function<void(std::string_view)> on_comment;
   /// What a procedural of the scene holds, given the pixels its bound covers. Only from within render_world;
   /// from any thread, one call at a time.
   SceneContent make_content(const Procedural&, float area);
   /// Directories "@" stands for in search paths, by kind of path.
   std::map<std::string, std::vector<std::string>> standard_paths;
+
+  // For clients that make requests without a file, such as the C interface.
+  const Declarations& declarations() const { return declarations_; }
+  /// Of the basis that is current.
+  BasisSteps basis_steps() const { return {attributes_->ubasis.step, attributes_->vbasis.step}; }
+  bool in_world() const { return in_world_; }
+  /// Whether requests become part of an object or archive instead of being carried out.
+  bool recording() const { return recording_.depth > 0; }
+  /// To camera space; nothing when no space has this name.
+  std::optional<Matrix4> find_space(const std::string& name) const;
+  /// A Procedural whose geometry comes from a function. Errors are reported like those of the request.
+  void procedural(std::span<const float, 6> bound, std::shared_ptr<GeometryMaker>, slvm::SourceRange where);
+  /// What kind of error was reported last; kNone when none was since the last call.
+  RiError take_error_kind() { return std::exchange(error_kind_, RiError::kNone); }
 
 private:
   enum class BlockKind : uint8_t { kFrame, kWorld, kAttribute, kTransform, kSolid, kMotion, kCondition };
@@ -73,6 +98,7 @@ private:
     Matrix4 ctm;
     MotionMatrices motion;
     std::optional<Options> options;
+    SolidPlace solid;
     // of conditions
     bool taken = false;       ///< one of its branches was
     bool last_branch = false; ///< Else has been seen
@@ -99,11 +125,28 @@ private:
   static Handler handler(RequestId);
 
   // messages
-  void error(const RequestCall&, std::string_view text);
-  void error_at(slvm::SourceRange where, const RequestCall&, std::string_view text);
+  void error(const RequestCall&, std::string_view text, RiError kind = RiError::kConsistency);
+  void error_at(slvm::SourceRange where, const RequestCall&, std::string_view text,
+                RiError kind = RiError::kConsistency);
   void warn(const RequestCall&, std::string_view text);
   /// One message for each key in a run.
   void warn_once(std::string key, slvm::SourceRange where, std::string_view name, std::string text);
+  /// The value of a named parameter, checked. Nothing (reported): it cannot be used.
+  std::optional<std::pair<std::string, slvm::Value>> named_value_of(const RequestCall&,
+                                                                    std::string_view category, const Param&);
+  /// Where a named value stands: the request whose table has it, the category there.
+  struct ParameterPlace {
+    RequestId table;
+    std::string_view category;
+    slvm::SourceRange where;
+  };
+  /// Says what a parameter lacks, once for each. False, with a message: its type is wrong.
+  bool check_parameter(const RequestCall&, const ParameterPlace&, const std::string& name,
+                       const slvm::Value&);
+  void unknown_parameter(const ParameterPlace&, const std::string& name);
+  /// Of a request that takes a parameter list and knows no names in it.
+  void no_parameters(const RequestCall&);
+  void no_parameter(const RequestCall&, const Param&);
   bool legal(const RequestCall&);
   bool skipped(const RequestCall&);
   bool record(const RequestCall&);
@@ -133,6 +176,7 @@ private:
   void transform_end(const RequestCall&);
   void solid_begin(const RequestCall&);
   void solid_end(const RequestCall&);
+  void call_in_operation(const RequestCall&);
   void motion_begin(const RequestCall&);
   void motion_end(const RequestCall&);
   bool moved_by_motion_block(const RequestCall&);
@@ -175,15 +219,25 @@ private:
   void display_channel(const RequestCall&);
   void depth_of_field(const RequestCall&);
   void hider(const RequestCall&);
-  bool hider_parameter(const RequestCall&, const std::string& name, const slvm::Value& value);
+  void hider_parameter(const RequestCall&, const std::string& name, const slvm::Value& value);
+  void depth_filter(const RequestCall&, const std::string& name);
   void option(const RequestCall&);
-  void search_path(const RequestCall&);
-  void limits(const RequestCall&);
+  void relative_detail(const RequestCall&);
+  void search_path(const std::string& kind, const slvm::Value& value);
+  void limit(const std::string& name, const slvm::Value& value);
   void make_request(const RequestCall&);
 
   // attributes
   void attribute(const RequestCall&);
-  void displacement_bound(const RequestCall&);
+  void attribute_parameter(const RequestCall&, const Param&, const std::string& name,
+                           const slvm::Value& value);
+  void dice_parameter(const std::string& name, float value);
+  void geometric_approximation(const RequestCall&);
+  void detail(const RequestCall&);
+  void detail_range(const RequestCall&);
+  void measure_detail();
+  /// Whether the level of detail leaves anything of what follows.
+  bool out_of_detail() const;
   void color(const RequestCall&);
   void opacity(const RequestCall&);
   void texture_coordinates(const RequestCall&);
@@ -212,14 +266,13 @@ private:
   void coordinate_system(const RequestCall&);
   void scoped_coordinate_system(const RequestCall&);
   void coord_sys_transform(const RequestCall&);
-  std::optional<Matrix4> find_space(const std::string& name) const;
 
   // geometry
   void quadric(const RequestCall&);
   void polygon(const RequestCall&);
   void points_polygons(const RequestCall&);
-  std::optional<size_t> check_loops(const RequestCall&, size_t i, std::span<const int> loops);
-  std::optional<size_t> check_vertices(const RequestCall&, size_t i, size_t corners);
+  /// Class sizes under the current basis. Nothing, with a message: the counts contradict each other.
+  std::optional<ClassSizes> sizes_of(const RequestCall&);
   void patch(const RequestCall&);
   void geometry(const RequestCall&);
   void subdivision_mesh(const RequestCall&);
@@ -228,8 +281,8 @@ private:
   void curves(const RequestCall&);
   void points(const RequestCall&);
   void blobby(const RequestCall&);
+  std::shared_ptr<const BlobbyGround> blobby_ground(const RequestCall&, int string);
   void trim_curve(const RequestCall&);
-  std::optional<bool> wraps(const RequestCall&, int i);
   /// Types and checks of the variables of a primitive; those with errors are left out.
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
   bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P);
@@ -240,8 +293,11 @@ private:
 
   // procedurals
   void procedural(const RequestCall&);
+  void complete_solids();
   void run(const Procedural&, float area);
   void run_program(const Procedural&, float area);
+  void run_plug_in(const Procedural&, float area);
+  Procedural* keep_procedural(const RequestCall&, std::span<const float> bound, slvm::SourceRange where);
   slvm::Result<std::unique_ptr<Program>> start_program(const Procedural&);
   void report(const Procedural&, std::string_view text);
 
@@ -257,6 +313,7 @@ private:
   MotionMatrices motion_;       ///< the same at the times of motion blocks; empty: it stands still
   MotionMatrices world_motion_; ///< world to camera of a moving camera
   std::optional<MotionBlock> in_motion_;
+  SolidPlace solid_; ///< the innermost solid block
   std::vector<Block> blocks_;
   std::map<std::string, std::shared_ptr<const ShaderRequest>> lights_;
   std::map<std::string, Matrix4> spaces_;
@@ -268,6 +325,8 @@ private:
   };
   std::map<std::string, Content> contents_;
   Scene scene_;
+  /// By name; null: it failed. What procedurals hold of a plug-in is gone before the plug-in is.
+  std::map<std::string, std::shared_ptr<PlugIn>> plug_ins_;
   size_t procedurals_ = 0;                                   ///< seen so far in the world block
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
   int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
@@ -279,6 +338,7 @@ private:
   bool stopped_ = false; ///< what follows is not carried out
   enum class ErrorHandling : uint8_t { kIgnore, kPrint, kAbort };
   ErrorHandling error_handler_ = ErrorHandling::kPrint;
+  RiError error_kind_ = RiError::kNone;
   std::string scene_folder_; ///< of the file given by the user
   std::string folder_;       ///< of the file being read
   /// Archives read so far, so that one read often is kept once. Encoded ones are not in it.

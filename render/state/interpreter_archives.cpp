@@ -118,6 +118,7 @@ bool Interpreter::replay_content(const RequestCall& call) {
 }
 
 void Interpreter::read_archive(const RequestCall& call) {
+  no_parameters(call);
   if (replay_archive(call)) return;
   if (nested_too_deep(call)) return;
   ++depth_;
@@ -140,6 +141,7 @@ void Interpreter::read_archive_file(const std::string& name, slvm::SourceRange w
   } else if (auto text = found ? render::read_file(*found) : std::nullopt) {
     read_text(*found, std::move(*text));
   } else if (error_handler_ != ErrorHandling::kIgnore) {
+    error_kind_ = RiError::kNoFile;
     diagnostics_.error(where, fmt::format("{}: no archive \"{}\" in the search path \"{}\"", request, name,
                                           fmt::join(path, ":")));
   }
@@ -157,6 +159,8 @@ void Interpreter::archive_begin(const RequestCall& call) {
       call.where};
   const Param* type = call.find_param("Content-Type");
   const Param* encoding = call.find_param("Content-Transfer-Encoding");
+  for (const Param& p : call.params)
+    if (&p != type && &p != encoding) no_parameter(call, p);
   contents_.erase(call.text(0));
   if (call.data.empty() || (type && !type->is_string()) || (encoding && !encoding->is_string())) return;
   auto data = decode_content(encoding ? encoding->strings[0] : "", call.data);
@@ -170,8 +174,9 @@ void Interpreter::archive_begin(const RequestCall& call) {
 void Interpreter::recording_end(const RequestCall& call) {
   if (recording_.depth == 0) {
     bool object = call.id == RequestId::kObjectEnd;
-    error(call, fmt::format("there is no open {}; the request is skipped",
-                            object ? "ObjectBegin" : "ArchiveBegin"));
+    error(call,
+          fmt::format("there is no open {}; the request is skipped", object ? "ObjectBegin" : "ArchiveBegin"),
+          RiError::kNesting);
     return;
   }
   bool object = recording_.begin == RequestId::kObjectBegin;
@@ -182,7 +187,8 @@ void Interpreter::recording_end(const RequestCall& call) {
 void Interpreter::object_instance(const RequestCall& call) {
   auto it = objects_.find(call.text(0));
   if (it == objects_.end()) {
-    error_at(call.arguments[0].where, call, fmt::format("no object \"{}\" was recorded", call.text(0)));
+    error_at(call.arguments[0].where, call, fmt::format("no object \"{}\" was recorded", call.text(0)),
+             RiError::kBadHandle);
     return;
   }
   auto calls = it->second;
@@ -190,15 +196,20 @@ void Interpreter::object_instance(const RequestCall& call) {
   auto attributes = attributes_;
   Matrix4 ctm = ctm_;
   MotionMatrices motion = motion_;
+  size_t first = scene_.primitives.size();
   replay(call, *calls);
+  if (scene_.primitives.size() > first)
+    scene_.copies.push_back({calls.get(), first, scene_.primitives.size() - first, ctm});
   attributes_ = attributes;
   ctm_ = ctm;
   motion_ = std::move(motion);
 }
 
 void Interpreter::archive_instance(const RequestCall& call) {
+  no_parameters(call);
   if (!replay_archive(call))
-    error_at(call.arguments[0].where, call, fmt::format("no archive \"{}\" was recorded", call.text(0)));
+    error_at(call.arguments[0].where, call, fmt::format("no archive \"{}\" was recorded", call.text(0)),
+             RiError::kBadHandle);
 }
 
 } // namespace render

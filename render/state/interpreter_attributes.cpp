@@ -16,45 +16,72 @@ Attributes& Interpreter::edit() {
 void Interpreter::attribute(const RequestCall& call) {
   const std::string& category = call.text(0);
   for (const Param& p : call.params) {
-    auto value = loose_value(p, declarations_);
-    if (!value) {
-      error_at(p.where, call, value.error());
-      continue;
-    }
-    edit().named[category + ":" + value->first] = value->second;
-    if (category == "cull" && value->second.numbers.size() == 1) {
-      if (value->first == "hidden")
-        edit().cull_hidden = value->second.numbers[0] != 0;
-      else if (value->first == "backfacing")
-        edit().cull_backfacing = value->second.numbers[0] != 0;
-      else
-        warn_once("Attribute cull " + value->first, p.where, "rib-unsupported",
-                  fmt::format("Attribute \"cull\" \"{}\" has no effect; known are hidden and backfacing",
-                              value->first));
-    }
-    if (category == "identifier" && value->first == "name" && !value->second.strings.empty())
-      edit().name = value->second.strings[0];
+    auto named = named_value_of(call, category, p);
+    if (!named) continue;
+    edit().named[category + ":" + named->first] = named->second;
+    if (auto problem = set_ray_attribute(edit().rays, category, named->first, named->second);
+        problem && !problem->empty())
+      error_at(p.where, call, fmt::format("\"{}\" {}", named->first, *problem));
+    attribute_parameter(call, p, named->first, named->second);
   }
-  if (category == "displacementbound")
-    displacement_bound(call);
-  else if (category != "user" && category != "identifier" && category != "trimcurve" && category != "cull")
-    warn_once("Attribute " + category, call.where, "rib-unsupported",
-              fmt::format("Attribute \"{}\" has no effect yet (shaders can read its values)", category));
 }
 
-void Interpreter::displacement_bound(const RequestCall& call) {
-  if (const Param* sphere = call.find_param("sphere")) {
-    if (sphere->numbers.size() == 1 && sphere->numbers[0] >= 0)
-      edit().displacement_sphere = sphere->numbers[0];
-    else
-      error_at(sphere->where, call, "\"sphere\" takes one number, 0 or more");
+/// The values that are not only for shaders to read.
+void Interpreter::attribute_parameter(const RequestCall& call, const Param& p, const std::string& name,
+                                      const slvm::Value& value) {
+  const std::string& category = call.text(0);
+  if (!value.strings.empty()) {
+    if (category == "identifier" && name == "name") edit().name = value.strings[0];
+    if (category == "displacementbound" && name == "coordinatesystem")
+      edit().displacement_space = value.strings[0];
+    if (category == "trimcurve" && name == "sense" && value.strings[0] != "inside" &&
+        value.strings[0] != "outside")
+      error_at(p.where, call, fmt::format("\"{}\" is not \"inside\" or \"outside\"", value.strings[0]));
+    return;
   }
-  if (const Param* space = call.find_param("coordinatesystem")) {
-    if (space->strings.size() == 1)
-      edit().displacement_space = space->strings[0];
+  float number = value.numbers[0];
+  if (category == "displacementbound" && name == "sphere") {
+    if (number >= 0)
+      edit().displacement_sphere = number;
     else
-      error_at(space->where, call, "\"coordinatesystem\" takes one string");
+      error_at(p.where, call, "\"sphere\" takes one number, 0 or more");
+  } else if (category == "cull" && name == "hidden") {
+    edit().cull_hidden = number != 0;
+  } else if (category == "cull" && name == "backfacing") {
+    edit().cull_backfacing = number != 0;
+  } else if (category == "stitch" && name == "enable") {
+    edit().stitch = number != 0;
+  } else if (category == "sides" && name == "backfacetolerance") {
+    edit().back_face_tolerance = std::clamp(number, 0.0f, 90.0f);
+  } else if (category == "dice") {
+    dice_parameter(name, number);
   }
+}
+
+void Interpreter::dice_parameter(const std::string& name, float value) {
+  Dicing& dicing = edit().dicing;
+  if (name == "rasterorient")
+    dicing.raster_oriented = value != 0;
+  else if (name == "binary")
+    dicing.binary = value != 0;
+  else if (name == "hair")
+    dicing.hair = value != 0;
+  else if (name == "minlength")
+    dicing.shortest = std::max(value, 0.0f);
+}
+
+void Interpreter::geometric_approximation(const RequestCall& call) {
+  const std::string& type = call.text(0);
+  float value = call.number(1);
+  edit().named["GeometricApproximation:" + type] = {slvm::Type::kFloat, 0, {value}, {}};
+  if (!check_parameter(call, {call.id, "", call.where}, type, edit().named["GeometricApproximation:" + type]))
+    return;
+  if (type != "motionfactor" && type != "focusfactor") return;
+  if (value < 0) {
+    error_at(call.arguments[1].where, call, fmt::format("\"{}\" takes one number, 0 or more", type));
+    return;
+  }
+  (type == "motionfactor" ? edit().dicing.motion_factor : edit().dicing.focus_factor) = value;
 }
 
 void Interpreter::color(const RequestCall& call) {
@@ -117,21 +144,21 @@ void Interpreter::light_source(const RequestCall& call) {
   if (call.text(0) == "null") return;
   auto light = make_shader(call);
   light->handle = call.text(1);
+  // A handle that is used again names the new light from here on; the old one goes on shining.
   lights_[light->handle] = light;
-  auto& on = edit().lights;
-  std::erase_if(on, [&](const auto& l) { return l->handle == light->handle; });
-  on.push_back(light);
+  edit().lights.push_back(light);
 }
 
 void Interpreter::illuminate(const RequestCall& call) {
   const std::string& handle = call.text(0);
   auto it = lights_.find(handle);
   if (it == lights_.end()) {
-    error_at(call.arguments[0].where, call, fmt::format("no light has the handle \"{}\"", handle));
+    error_at(call.arguments[0].where, call, fmt::format("no light has the handle \"{}\"", handle),
+             RiError::kBadHandle);
     return;
   }
   auto& on = edit().lights;
-  std::erase_if(on, [&](const auto& l) { return l->handle == handle; });
+  std::erase(on, it->second);
   if (call.integer(1) != 0) on.push_back(it->second);
 }
 
@@ -140,7 +167,7 @@ void Interpreter::shading_rate(const RequestCall& call) {
   if (call.number(0) > 0)
     edit().shading_rate = std::max(call.number(0), kFinest);
   else
-    error(call, "the shading rate must be positive");
+    error(call, "the shading rate must be positive", RiError::kRange);
 }
 
 void Interpreter::shading_interpolation(const RequestCall& call) {
@@ -153,6 +180,8 @@ void Interpreter::shading_interpolation(const RequestCall& call) {
 }
 
 void Interpreter::matte(const RequestCall& call) {
+  if (call.integer(0) != 0 && call.integer(0) != 1)
+    warn(call, fmt::format("{} is taken as 1: there is one kind of hole", call.integer(0)));
   edit().matte = call.integer(0) != 0;
 }
 
@@ -183,7 +212,7 @@ void Interpreter::sides(const RequestCall& call) {
   if (call.integer(0) == 1 || call.integer(0) == 2)
     edit().sides = call.integer(0);
   else
-    error(call, "a surface has 1 or 2 sides");
+    error(call, "a surface has 1 or 2 sides", RiError::kRange);
 }
 
 namespace {

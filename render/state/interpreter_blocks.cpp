@@ -1,4 +1,4 @@
-// Blocks: frames, worlds, attributes, transformations, solids.
+// Blocks: frames, worlds, attributes, transformations. Solids: interpreter_solids.cpp.
 #include "render/state/interpreter.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ constexpr std::string_view kBlockNames[] = {"FrameBegin", "WorldBegin",  "Attrib
 
 void Interpreter::open(const RequestCall& call, BlockKind kind) {
   if (blocks_.size() == kMaxBlocks) error(call, fmt::format("more than {} nested blocks", kMaxBlocks));
-  blocks_.push_back({kind, call.where, attributes_, ctm_, motion_, {}, false, false});
+  blocks_.push_back({kind, call.where, attributes_, ctm_, motion_, {}, solid_, false, false});
 }
 
 /// Restores what the innermost block of this kind saved. Blocks left open inside it are reported and closed
@@ -32,22 +32,24 @@ bool Interpreter::close(const RequestCall& call, BlockKind kind) {
   for (size_t i = at; i < blocks_.size(); ++i)
     crosses_world = crosses_world || blocks_[i].kind <= BlockKind::kWorld;
   if (at == 0 || (crosses_world && kind > BlockKind::kWorld)) {
-    error(call, fmt::format("there is no open {}; the request is skipped", opener));
+    error(call, fmt::format("there is no open {}; the request is skipped", opener), RiError::kNesting);
     return false;
   }
   for (size_t i = blocks_.size(); i > at; --i) {
     std::string_view inner = kBlockNames[static_cast<size_t>(blocks_[i - 1].kind)];
     auto& d = diagnostics_.error(call.where, fmt::format("{}: {} is still open", call.info().name, inner));
+    error_kind_ = RiError::kNesting;
     d.notes.push_back({blocks_[i - 1].where, fmt::format("{} stands here", inner)});
   }
   const Block& block = blocks_[at - 1];
-  if (kind == BlockKind::kFrame || kind == BlockKind::kWorld || kind == BlockKind::kAttribute)
-    attributes_ = block.attributes;
-  if (kind <= BlockKind::kTransform) {
+  // Solids, too, save all (RISpec 3.2, 4).
+  if (kind <= BlockKind::kSolid) {
+    if (kind != BlockKind::kTransform) attributes_ = block.attributes;
     ctm_ = block.ctm;
     motion_ = block.motion;
   }
   if (block.options) options_ = *block.options;
+  solid_ = block.solid;
   blocks_.resize(at - 1);
   return true;
 }
@@ -67,6 +69,8 @@ void Interpreter::frame_end(const RequestCall& call) {
 std::vector<std::string> Interpreter::full_path(const Options& options, const std::string& kind) const {
   std::vector<std::string> path;
   if (auto it = options.search_paths.find(kind); it != options.search_paths.end()) path = it->second;
+  if (auto it = options.search_paths.find("resource"); it != options.search_paths.end())
+    path.insert(path.end(), it->second.begin(), it->second.end());
   std::vector<std::string> last{".", folder_, scene_folder_};
   if (auto it = standard_paths.find(kind); it != standard_paths.end())
     last.insert(last.end(), it->second.begin(), it->second.end());
@@ -87,6 +91,11 @@ void Interpreter::world_begin(const RequestCall& call) {
   for (const char* kind : {"shader", "texture", "archive", "procedural"})
     scene_.options.search_paths[kind] = full_path(options_, kind);
   if (override_options) override_options(scene_.options);
+  measure_detail();
+  const Options& o = scene_.options;
+  if (o.projection == ProjectionKind::kOrthographic && o.fstop < kInfinity)
+    warn_once("DepthOfField orthographic", call.where, "rib-unsupported",
+              "DepthOfField has no effect: orthographic cameras have no lens");
 }
 
 void Interpreter::world_end(const RequestCall& call) {
@@ -99,6 +108,7 @@ void Interpreter::world_end(const RequestCall& call) {
   scene_.spaces = spaces_;
   in_motion_.reset();
   if (render_world_ && !stopped_) {
+    complete_solids();
     // What procedurals make goes to a scene of its own: this one is being read while they are at it.
     Scene scene = std::exchange(scene_, {});
     scene_.options = scene.options;
@@ -121,12 +131,6 @@ void Interpreter::transform_begin(const RequestCall& call) {
 }
 void Interpreter::transform_end(const RequestCall& call) {
   close(call, BlockKind::kTransform);
-}
-void Interpreter::solid_begin(const RequestCall& call) {
-  open(call, BlockKind::kSolid);
-}
-void Interpreter::solid_end(const RequestCall& call) {
-  close(call, BlockKind::kSolid);
 }
 
 } // namespace render

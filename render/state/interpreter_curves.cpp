@@ -2,6 +2,7 @@
 #include "render/prims/blobby.h"
 #include "render/prims/curves.h"
 #include "render/state/interpreter.h"
+#include "render/texture/find_image.h"
 
 #include <fmt/format.h>
 
@@ -20,55 +21,59 @@ EyeInObject eye_in_object(const Options& options, const PrimitiveState& state) {
 } // namespace
 
 void Interpreter::curves(const RequestCall& call) {
+  auto sizes = sizes_of(call);
+  if (!sizes) return;
   CurveLayout layout;
   layout.cubic = call.text(0) == "cubic";
-  if (!layout.cubic && call.text(0) != "linear") {
-    error_at(call.arguments[0].where, call,
-             fmt::format("unknown type \"{}\"; expected \"linear\" or \"cubic\"", call.text(0)));
-    return;
-  }
-  auto periodic = wraps(call, 2);
-  if (!periodic) return;
-  layout.periodic = *periodic;
+  layout.periodic = call.text(2) == "periodic";
   layout.basis = attributes_->vbasis;
   std::span<const int> counts = call.integers(1);
-  size_t points = 0, corners = 0;
-  for (int n : counts) {
-    if (n < layout.fewest()) {
-      error_at(call.arguments[1].where, call,
-               fmt::format("a {} curve has at least {} points, found {}", call.text(0), layout.fewest(), n));
-      return;
-    }
-    points += static_cast<size_t>(n);
-    corners += static_cast<size_t>(layout.varying(n));
-  }
-  std::vector<TypedParam> vars = primitive_vars(call, {counts.size(), corners, points, corners});
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
   auto state = primitive_state();
-  add_curves(layout, counts, P, vars, eye_in_object(options_, *state), state, scene_.primitives);
+  add_curves(layout, counts, std::move(P), std::move(vars), eye_in_object(options_, *state), state,
+             scene_.primitives);
 }
 
 void Interpreter::points(const RequestCall& call) {
-  const Param* p = call.find_param("P");
-  size_t n = p ? p->numbers.size() / 3 : 0;
-  std::vector<TypedParam> vars = primitive_vars(call, {1, n, n, n});
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes_of(call));
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;
   auto state = primitive_state();
-  add_points(P, vars, eye_in_object(options_, *state), state, scene_.primitives);
+  add_points(std::move(P), std::move(vars), eye_in_object(options_, *state), state, scene_.primitives);
+}
+
+/// The depth image that a ground of a Blobby names. Null, with a message: it cannot be had.
+std::shared_ptr<const BlobbyGround> Interpreter::blobby_ground(const RequestCall& call, int string) {
+  auto names = call.texts(3);
+  auto fail = [&](std::string_view text) {
+    error_at(call.arguments[3].where, call, fmt::format("{}; the ground has no effect", text));
+    return nullptr;
+  };
+  if (string < 0 || static_cast<size_t>(string) >= names.size())
+    return fail(fmt::format("a ground has the file {} of {}", string, names.size()));
+  const std::string& name = names[static_cast<size_t>(string)];
+  auto found = find_image(name, scene_.options.search_paths["texture"]);
+  DepthImage image;
+  std::string problem = found ? read_depth_image(*found, image) : "no such file in the texture search path";
+  if (problem.empty() && (image.world_to_camera.empty() || image.world_to_screen.empty()))
+    problem = "the image does not say where its camera was; expected a shadow map or z image";
+  if (!problem.empty()) return fail(fmt::format("\"{}\": {}", name, problem));
+  return std::make_shared<BlobbyGround>(std::move(image), ctm_ * inverse_or_identity(scene_.world_to_camera));
 }
 
 void Interpreter::blobby(const RequestCall& call) {
-  auto field = BlobbyField::make(call.integer(0), call.integers(1), call.numbers(2));
+  auto field = BlobbyField::make(call.integers(1), call.numbers(2),
+                                 [&](int string) { return blobby_ground(call, string); });
   if (!field) {
     error(call, field.error());
     return;
   }
-  if (field->has_planes())
-    warn_once("Blobby plane", call.where, "rib-unsupported",
-              "Blobby: planes that repel (code 1003) have no effect");
   size_t leaves = field->leaves();
+  if (call.integer(0) < 0 || static_cast<size_t>(call.integer(0)) != leaves)
+    warn(call,
+         fmt::format("'nleaf' is {}, but the code has {} leaves, and that counts", call.integer(0), leaves));
   std::vector<TypedParam> vars = primitive_vars(call, {1, leaves, leaves, leaves});
   add_blobby(*field, vars, primitive_state(), scene_.primitives);
 }

@@ -15,17 +15,6 @@ namespace render {
 
 namespace {
 
-size_t class_size(const ClassSizes& sizes, StorageClass c) {
-  switch (c) {
-  case StorageClass::kConstant: return 1;
-  case StorageClass::kUniform: return sizes.uniform;
-  case StorageClass::kVarying: return sizes.varying;
-  case StorageClass::kVertex: return sizes.vertex;
-  case StorageClass::kFaceVarying: return sizes.facevarying;
-  }
-  return 1;
-}
-
 /// "Pz", the heights of a field, becomes "P": x and y run from 0 to 1 with u and v (RISpec 3.2, 5.3).
 void expand_heights(int columns, std::vector<TypedParam>& vars) {
   for (TypedParam& v : vars) {
@@ -59,18 +48,26 @@ GeometryResult make_quadric(const RequestCall& c) {
 
 } // namespace
 
+std::optional<ClassSizes> Interpreter::sizes_of(const RequestCall& call) {
+  SizesOfRequest r = class_sizes(call, {attributes_->ubasis.step, attributes_->vbasis.step});
+  if (r.ok()) return r.sizes;
+  error_at(r.argument < 0 ? call.where : call.arguments[static_cast<size_t>(r.argument)].where, call,
+           r.error);
+  return std::nullopt;
+}
+
 std::vector<TypedParam> Interpreter::primitive_vars(const RequestCall& call, const ClassSizes& sizes) {
   std::vector<TypedParam> out;
   for (const Param& p : call.params) {
     auto declared = declarations_.resolve(p.token);
     if (!declared) {
-      error_at(p.where, call, declared.error());
+      error_at(p.where, call, declared.error(), RiError::kBadToken);
       continue;
     }
     const Declaration& d = *declared;
     bool text = d.type == slvm::Type::kString;
     size_t have = text ? p.strings.size() : p.numbers.size();
-    size_t want = class_size(sizes, d.storage) * static_cast<size_t>(d.width());
+    size_t want = sizes.of(d.storage) * static_cast<size_t>(d.width());
     if (have != want) {
       error_at(p.where, call,
                fmt::format("\"{}\" ({} {}) takes {} {}, found {}", d.name, storage_class_name(d.storage),
@@ -109,7 +106,7 @@ bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam
   }
   // A wrong count was reported with the variable.
   if (!call.find_param("P") && !call.find_param("Pw") && !call.find_param("Pz"))
-    error(call, "\"P\" is missing");
+    error(call, "\"P\" is missing", RiError::kMissingData);
   return false;
 }
 
@@ -134,6 +131,11 @@ std::shared_ptr<const PrimitiveState> Interpreter::primitive_state() {
   state->camera_to_object = inverse_or_identity(ctm_);
   state->mirrored = slvm::determinant3(ctm_) < 0;
   state->displacement_bound = displacement_bound_of(*attributes_, ctm_);
+  if (solid_.is_operand()) {
+    state->solid = solid_.tree;
+    state->solid_primitive = solid_.node;
+  }
+  state->level = attributes_->detail.part();
   return state;
 }
 
@@ -165,53 +167,27 @@ void Interpreter::quadric(const RequestCall& call) {
 
 /// A patch is a mesh of one.
 void Interpreter::patch(const RequestCall& call) {
+  auto sizes = sizes_of(call);
+  if (!sizes) return;
   bool mesh = call.id == RequestId::kPatchMesh;
-  bool cubic = call.text(0) == "bicubic";
-  if (!cubic && call.text(0) != "bilinear") {
-    error_at(call.arguments[0].where, call,
-             fmt::format("unknown type \"{}\"; expected \"bilinear\" or \"bicubic\"", call.text(0)));
-    return;
-  }
   MeshDirection d[2];
   for (int side = 0; side < 2; ++side) {
-    d[side].cubic = cubic;
+    d[side].cubic = call.text(0) == "bicubic";
     d[side].points = d[side].order();
     d[side].basis = side == 0 ? attributes_->ubasis : attributes_->vbasis;
     if (!mesh) continue;
-    auto periodic = wraps(call, 2 + 2 * side);
-    if (!periodic) return;
-    d[side].periodic = *periodic;
+    d[side].periodic = call.text(2 + 2 * side) == "periodic";
     d[side].points = call.integer(1 + 2 * side);
-    std::string_view name = side == 0 ? "nu" : "nv";
-    constexpr int kMostPoints = 1 << 20; // products stay ints
-    if (d[side].points < d[side].order() || d[side].points > kMostPoints) {
-      error_at(call.arguments[static_cast<size_t>(1 + 2 * side)].where, call,
-               fmt::format("{} is {}; a {} mesh has at least {}", name, d[side].points, call.text(0),
-                           d[side].order()));
-      return;
-    }
     if (!d[side].even())
       warn(call, fmt::format("{} is {}, which steps of {} do not divide; the points left over are not used",
-                             name, d[side].points, d[side].step()));
+                             side == 0 ? "nu" : "nv", d[side].points, d[side].step()));
   }
-  auto size = [](int n, int m) { return static_cast<size_t>(n) * static_cast<size_t>(m); };
-  size_t corners = size(d[0].corners(), d[1].corners()), points = size(d[0].points, d[1].points);
-  std::vector<TypedParam> vars =
-      primitive_vars(call, {size(d[0].patches(), d[1].patches()), corners, points, corners});
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<float> weights = point_weights(vars);
   std::vector<Vec3> P;
   expand_heights(d[0].points, vars);
   if (!take_positions(call, vars, P)) return;
   add_patch_mesh(d[0], d[1], P, vars, primitive_state(), scene_.primitives, weights);
-}
-
-/// Whether argument `i` says "periodic". Nothing, with a message: it says neither that nor "nonperiodic".
-std::optional<bool> Interpreter::wraps(const RequestCall& call, int i) {
-  const std::string& text = call.text(i);
-  if (text == "periodic" || text == "nonperiodic") return text == "periodic";
-  error_at(call.arguments[static_cast<size_t>(i)].where, call,
-           fmt::format("unknown wrap \"{}\"; expected \"periodic\" or \"nonperiodic\"", text));
-  return std::nullopt;
 }
 
 void Interpreter::geometry(const RequestCall& call) {
@@ -220,7 +196,7 @@ void Interpreter::geometry(const RequestCall& call) {
              fmt::format("unknown geometry \"{}\"; known is \"teapot\"", call.text(0)));
     return;
   }
-  std::vector<TypedParam> vars = primitive_vars(call, {1, 4, 16, 4});
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes_of(call));
   auto state = primitive_state();
   MeshDirection side;
   for (const auto& patch : teapot_patches())

@@ -26,12 +26,13 @@ bool is_transformation(RequestId id) {
 void Interpreter::motion_begin(const RequestCall& call) {
   std::vector<float> times(call.numbers(0).begin(), call.numbers(0).end());
   if (times.empty()) {
-    error(call, "a motion block has at least one time");
+    error(call, "a motion block has at least one time", RiError::kBadMotion);
     times.push_back(0);
   }
   for (size_t i = 1; i < times.size(); ++i)
     if (!(times[i] > times[i - 1])) {
-      error(call, fmt::format("times must increase, found {:g} after {:g}", times[i], times[i - 1]));
+      error(call, fmt::format("times must increase, found {:g} after {:g}", times[i], times[i - 1]),
+            RiError::kBadMotion);
       times.resize(1);
     }
   open(call, BlockKind::kMotion);
@@ -46,7 +47,8 @@ void Interpreter::motion_end(const RequestCall& call) {
   MotionBlock block = std::move(*in_motion_);
   in_motion_.reset();
   if (block.calls < block.times.size())
-    error(call, fmt::format("the block has {} times, but {} requests", block.times.size(), block.calls));
+    error(call, fmt::format("the block has {} times, but {} requests", block.times.size(), block.calls),
+          RiError::kBadMotion);
   const Options& o = in_world_ ? scene_.options : options_;
   if (!block.transforms.empty()) {
     motion_ = std::move(block.transforms);
@@ -65,11 +67,13 @@ bool Interpreter::moved_by_motion_block(const RequestCall& call) {
   size_t index = block.calls++;
   if (index == 0) block.kind = call.id;
   if (index == block.times.size())
-    error(call, fmt::format("the motion block has {} times; further requests in it are skipped", index));
+    error(call, fmt::format("the motion block has {} times; further requests in it are skipped", index),
+          RiError::kBadMotion);
   if (index >= block.times.size()) return true;
   if (call.id != block.kind) {
     error(call,
-          fmt::format("a motion block repeats one request; the first was {}", request_info(block.kind).name));
+          fmt::format("a motion block repeats one request; the first was {}", request_info(block.kind).name),
+          RiError::kBadMotion);
     return true;
   }
   bool transforms = is_transformation(call.id);
@@ -107,8 +111,10 @@ void Interpreter::motion_shape(const RequestCall& call, float time) {
     block.primitives = made;
     block.shapes.resize(made);
   } else if (made != block.primitives) {
-    error(call, fmt::format("this makes {} surfaces, at the first time of the motion block it was {}", made,
-                            block.primitives));
+    error(call,
+          fmt::format("this makes {} surfaces, at the first time of the motion block it was {}", made,
+                      block.primitives),
+          RiError::kBadMotion);
     scene_.primitives.resize(before);
     return;
   }

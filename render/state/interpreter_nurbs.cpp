@@ -31,10 +31,7 @@ void Interpreter::nu_patch(const RequestCall& call) {
       error(call, basis->error());
       return;
     }
-  auto size = [](int a, int b) { return static_cast<size_t>(a) * static_cast<size_t>(b); };
-  size_t points = size(u->points(), v->points()), corners = size(u->intervals() + 1, v->intervals() + 1);
-  std::vector<TypedParam> vars =
-      primitive_vars(call, {size(u->intervals(), v->intervals()), corners, points, corners});
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes_of(call)); // the bases hold, so the counts do
   std::vector<float> weights = point_weights(vars);
   for (float w : weights)
     if (!(w > 0)) {

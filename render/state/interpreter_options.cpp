@@ -93,6 +93,7 @@ void Interpreter::clipping_plane(const RequestCall& call) {
 }
 
 void Interpreter::shutter(const RequestCall& call) {
+  if (call.number(1) < call.number(0)) warn(call, "it closes before it opens: nothing moves");
   options_.shutter_open = call.number(0);
   options_.shutter_close = call.number(1);
 }
@@ -104,6 +105,9 @@ void Interpreter::pixel_samples(const RequestCall& call) {
     error(call, fmt::format("expected 1 to {} samples in each direction", kMost));
   options_.xsamples = static_cast<int>(std::clamp(std::round(x), 1.0f, kMost));
   options_.ysamples = static_cast<int>(std::clamp(std::round(y), 1.0f, kMost));
+  if (x != std::round(x) || y != std::round(y))
+    warn(call, fmt::format("{:g} by {:g} samples are rounded to {} by {}", x, y, options_.xsamples,
+                           options_.ysamples));
 }
 
 void Interpreter::pixel_filter(const RequestCall& call) {
@@ -130,7 +134,13 @@ void Interpreter::exposure(const RequestCall& call) {
 }
 
 void Interpreter::imager(const RequestCall& call) {
-  options_.imager = call.text(0) == "null" ? nullptr : make_shader(call);
+  options_.imager = nullptr;
+  if (call.text(0) == "null") return;
+  auto imager = make_shader(call);
+  // Where the background is built in, its parameter is "color", which no parameter of a shader can be called.
+  for (ShaderParam& p : imager->params)
+    if (imager->name == "background" && p.name == "color") p.name = "bgcolor";
+  options_.imager = imager;
 }
 
 void Interpreter::quantize(const RequestCall& call) {
@@ -144,7 +154,7 @@ void Interpreter::quantize(const RequestCall& call) {
   else if (call.text(0) == "z")
     options_.z = q;
   else
-    warn(call, fmt::format("\"{}\" is not \"rgba\" or \"z\"; the request is ignored", call.text(0)));
+    options_.channel_quantization[call.text(0)] = q;
 }
 
 void Interpreter::display(const RequestCall& call) {
@@ -159,13 +169,8 @@ void Interpreter::display(const RequestCall& call) {
                          d.type, d.name));
     return;
   }
-  for (const Param& p : call.params) {
-    auto value = loose_value(p, declarations_);
-    if (value)
-      d.params[value->first] = value->second;
-    else
-      error_at(p.where, call, value.error());
-  }
+  for (const Param& p : call.params)
+    if (auto named = named_value_of(call, "", p)) d.params[named->first] = named->second;
   bool add = d.name.starts_with('+');
   if (add)
     d.name.erase(0, 1);
@@ -181,13 +186,8 @@ void Interpreter::display_channel(const RequestCall& call) {
     return;
   }
   ChannelRequest channel{call.text(0), {}, call.where};
-  for (const Param& p : call.params) {
-    auto value = loose_value(p, declarations_);
-    if (value)
-      channel.params[value->first] = value->second;
-    else
-      error_at(p.where, call, value.error());
-  }
+  for (const Param& p : call.params)
+    if (auto named = named_value_of(call, "", p)) channel.params[named->first] = named->second;
   options_.channels[declared ? declared->name : call.text(0)] = std::move(channel);
 }
 
@@ -208,60 +208,54 @@ void Interpreter::depth_of_field(const RequestCall& call) {
 
 void Interpreter::hider(const RequestCall& call) {
   const std::string& type = call.text(0);
-  if (type != "hidden" && type != "depthmask")
+  if (type == "paint")
+    warn_once("Hider paint", call.where, "rib-unsupported",
+              "Hider \"paint\" is not supported: surfaces hide each other by depth, as by \"hidden\"");
+  else if (type != "hidden" && type != "depthmask" && type != "null")
     warn_once("Hider " + type, call.where, "rib-unsupported",
               fmt::format("Hider \"{}\" is not supported yet: \"hidden\" is used", type));
+  options_.no_image = type == "null";
   options_.depth_mask.reset();
   if (type == "depthmask") options_.depth_mask = DepthMaskRequest{{}, false, 0.01f, call.where};
-  for (const Param& p : call.params) {
-    auto value = loose_value(p, declarations_);
-    if (!value)
-      error_at(p.where, call, value.error());
-    else if (!hider_parameter(call, value->first, value->second))
-      warn_once("Hider/" + value->first, p.where, "rib-unsupported",
-                fmt::format("Hider parameter \"{}\" is not supported yet and has no effect", value->first));
-  }
+  for (const Param& p : call.params)
+    if (auto named = named_value_of(call, type, p)) hider_parameter(call, named->first, named->second);
   if (options_.depth_mask && options_.depth_mask->file.empty()) {
     error(call, "\"depthmask\" needs \"zfile\", the depth image to compare with");
     options_.depth_mask.reset();
   }
 }
 
-/// False: nobody knows it.
-bool Interpreter::hider_parameter(const RequestCall& call, const std::string& name,
+void Interpreter::hider_parameter(const RequestCall& call, const std::string& name,
                                   const slvm::Value& value) {
-  if (value.strings.size() == 1) {
-    if (name == "zfile" && options_.depth_mask) {
-      options_.depth_mask->file = value.strings[0];
-      return true;
-    }
-    if (name != "depthfilter") return false;
-    constexpr std::pair<std::string_view, DepthFilter> kNames[] = {{"min", DepthFilter::kMin},
-                                                                   {"max", DepthFilter::kMax},
-                                                                   {"average", DepthFilter::kAverage},
-                                                                   {"midpoint", DepthFilter::kMidpoint}};
-    for (auto [known, filter] : kNames)
-      if (known == value.strings[0]) {
-        options_.depth_filter = filter;
-        return true;
-      }
-    error(call,
-          fmt::format("unknown depthfilter \"{}\"; known are min, max, average, midpoint", value.strings[0]));
-    return true;
+  if (!value.strings.empty()) {
+    if (name == "zfile" && options_.depth_mask) options_.depth_mask->file = value.strings[0];
+    if (name == "depthfilter") depth_filter(call, value.strings[0]);
+    return;
   }
-  if (value.numbers.size() != 1) return false;
   float number = value.numbers[0];
   if (name == "jitter")
     options_.jitter = number != 0;
   else if (name == "subpixel")
     options_.subpixel = number != 0;
+  else if (name == "samplemotion")
+    options_.sample_motion = number != 0;
   else if (name == "reversesign" && options_.depth_mask)
     options_.depth_mask->reverse = number != 0;
   else if (name == "depthbias" && options_.depth_mask)
     options_.depth_mask->bias = number;
-  else
-    return false;
-  return true;
+}
+
+void Interpreter::depth_filter(const RequestCall& call, const std::string& name) {
+  constexpr std::pair<std::string_view, DepthFilter> kNames[] = {{"min", DepthFilter::kMin},
+                                                                 {"max", DepthFilter::kMax},
+                                                                 {"average", DepthFilter::kAverage},
+                                                                 {"midpoint", DepthFilter::kMidpoint}};
+  for (auto [known, filter] : kNames)
+    if (known == name) {
+      options_.depth_filter = filter;
+      return;
+    }
+  error(call, fmt::format("unknown depthfilter \"{}\"; known are min, max, average, midpoint", name));
 }
 
 void Interpreter::option(const RequestCall& call) {
@@ -270,31 +264,21 @@ void Interpreter::option(const RequestCall& call) {
     error(call, "options cannot change inside a world block; the request is skipped");
     return;
   }
-  if (category == "searchpath") {
-    search_path(call);
-    return;
-  }
   for (const Param& p : call.params) {
-    auto value = loose_value(p, declarations_);
-    if (!value) {
-      error_at(p.where, call, value.error());
-      continue;
-    }
-    options_.named[category + ":" + value->first] = value->second;
-    if (in_world_) scene_.options.named[category + ":" + value->first] = value->second;
-    if (category == "statistics" && value->first != "endofframe")
-      warn_once(
-          "Option statistics " + value->first, p.where, "rib-unsupported",
-          fmt::format("Option \"statistics\" \"{}\" has no effect; slrender --statisticsfile writes a file",
-                      value->first));
-    if (category == "shutter" && value->first == "offset" && value->second.numbers.size() == 1)
-      options_.shutter_offset = value->second.numbers[0];
+    auto named = named_value_of(call, category, p);
+    if (!named) continue;
+    const auto& [name, value] = *named;
+    options_.named[category + ":" + name] = value;
+    if (in_world_) scene_.options.named[category + ":" + name] = value;
+    if (category == "searchpath" && !value.strings.empty())
+      search_path(name, value);
+    else if (category == "limits" && !value.numbers.empty())
+      limit(name, value);
+    else if (category == "hider")
+      hider_parameter(call, name, value);
+    else if (category == "shutter" && name == "offset")
+      options_.shutter_offset = value.numbers[0];
   }
-  if (category == "limits")
-    limits(call);
-  else if (category != "user" && category != "shutter" && category != "statistics")
-    warn_once("Option " + category, call.where, "rib-unsupported",
-              fmt::format("Option \"{}\" has no effect yet (shaders can read its values)", category));
 }
 
 namespace {
@@ -302,7 +286,8 @@ namespace {
 /// swidth and twidth, which stand before the parameters.
 std::optional<std::array<float, 2>> make_widths(const RequestCall& call) {
   if (call.id == RequestId::kMakeShadow) return {};
-  int first = call.id == RequestId::kMakeTexture ? 5 : call.id == RequestId::kMakeLatLongEnvironment ? 3 : 9;
+  bool flat = call.id == RequestId::kMakeTexture || call.id == RequestId::kMakeBump;
+  int first = flat ? 5 : call.id == RequestId::kMakeLatLongEnvironment ? 3 : 9;
   return std::array{call.number(first), call.number(first + 1)};
 }
 
@@ -313,39 +298,34 @@ void Interpreter::make_request(const RequestCall& call) {
   if (auto widths = make_widths(call); widths && (*widths)[0] * (*widths)[1] != 1)
     warn_once("make widths", call.where, "rib-unsupported",
               "filters of maps have a width of their own: swidth and twidth have no effect");
+  no_parameters(call);
   if (std::string why = make_map(call, options_); !why.empty()) error(call, why);
 }
 
-void Interpreter::search_path(const RequestCall& call) {
-  for (const Param& p : call.params) {
-    auto value = loose_value(p, declarations_);
-    if (!value || value->second.strings.empty()) {
-      error_at(p.where, call, value ? fmt::format("\"{}\" takes a string", value->first) : value.error());
-      continue;
-    }
-    const std::string& kind = value->first;
-    const std::string& text = value->second.strings[0];
-    auto& current = options_.search_paths[kind];
-    current = parse_search_path(text, current, standard_paths[kind]);
-    options_.named["searchpath:" + kind] = value->second;
-  }
+void Interpreter::search_path(const std::string& kind, const slvm::Value& value) {
+  auto& current = options_.search_paths[kind];
+  current = parse_search_path(value.strings[0], current, standard_paths[kind]);
 }
 
-void Interpreter::limits(const RequestCall& call) {
-  const auto& named = options_.named;
-  auto number = [&](const char* name, size_t i) -> std::optional<float> {
-    auto it = named.find(std::string("limits:") + name);
-    if (it == named.end() || !call.find_param(name) || it->second.numbers.size() <= i) return {};
-    return it->second.numbers[i];
-  };
+void Interpreter::limit(const std::string& name, const slvm::Value& value) {
+  const std::vector<float>& n = value.numbers;
   auto clamp = [](float x, float low, float high) { return static_cast<int>(std::clamp(x, low, high)); };
-  if (auto w = number("bucketsize", 0)) options_.bucket_width = clamp(*w, 4, 1024);
-  if (auto h = number("bucketsize", 1)) options_.bucket_height = clamp(*h, 4, 1024);
-  if (auto n = number("gridsize", 0)) options_.grid_size = clamp(*n, 4, 65536);
-  if (auto n = number("eyesplits", 0)) options_.eye_splits = clamp(*n, 0, 24);
-  for (size_t i = 0; i < 3; ++i) {
-    if (auto o = number("othreshold", i)) options_.opacity_threshold[static_cast<int>(i)] = *o;
-    if (auto z = number("zthreshold", i)) options_.depth_threshold[static_cast<int>(i)] = *z;
+  auto colour = [&] { return n.size() == 3 ? Color(n[0], n[1], n[2]) : Color(n[0]); };
+  if (name == "bucketsize") {
+    options_.bucket_width = clamp(n[0], 4, 1024);
+    options_.bucket_height = clamp(n[1], 4, 1024);
+  } else if (name == "gridsize") {
+    options_.grid_size = clamp(n[0], 4, 65536);
+  } else if (name == "eyesplits") {
+    options_.eye_splits = clamp(n[0], 0, 24);
+  } else if (name == "othreshold") {
+    options_.opacity_threshold = colour();
+  } else if (name == "zthreshold") {
+    options_.depth_threshold = colour();
+  } else if (name == "threads") {
+    options_.threads = clamp(n[0], 0, 4096);
+  } else if (name == "texturememory") {
+    options_.texture_megabytes = std::clamp(n[0] / 1024, 1.0f, 1e6f);
   }
 }
 

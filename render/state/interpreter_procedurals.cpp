@@ -40,54 +40,94 @@ void Interpreter::procedural(const RequestCall& call) {
              fmt::format("unknown type \"{}\"; known are DelayedReadArchive, RunProgram, DynamicLoad", type));
     return;
   }
-  if (plug_in) {
-    warn_once("DynamicLoad", call.where, "rib-unsupported",
-              "Procedural \"DynamicLoad\" is not supported yet: what the plug-in would make is missing");
-    return;
-  }
   size_t wanted = archive ? 1 : 2;
   if (call.texts(1).size() != wanted) {
     error_at(call.arguments[1].where, call,
              fmt::format("\"{}\" takes {}, found {}", type,
-                         archive ? "the name of a file" : "a program and the data for it",
+                         archive   ? "the name of a file"
+                         : program ? "a program and the data for it"
+                                   : "a plug-in and its parameters",
                          call.texts(1).size()));
     return;
   }
-  if (procedurals_ == kMostProcedurals) {
-    error(call, fmt::format("more than {} procedurals in a frame; the request is skipped", kMostProcedurals));
+  Procedural* p = keep_procedural(call, call.numbers(2), call.arguments[2].where);
+  if (!p) return;
+  p->type = type;
+  p->arguments.assign(call.texts(1).begin(), call.texts(1).end());
+}
+
+void Interpreter::procedural(std::span<const float, 6> bound, std::shared_ptr<GeometryMaker> maker,
+                             slvm::SourceRange where) {
+  RequestCall call;
+  call.id = RequestId::kProcedural;
+  call.where = where;
+  if (stopped(call) || skip_depth_ > 0 || !legal(call)) return;
+  if (recording() || in_motion_) {
+    error(call, "a function cannot be kept in an object, an archive or a motion block",
+          RiError::kIllegalState);
     return;
   }
-  auto b = call.numbers(2);
-  Procedural p;
-  p.type = type;
-  p.arguments.assign(call.texts(1).begin(), call.texts(1).end());
+  Procedural* p = keep_procedural(call, bound, where);
+  if (!p) return;
+  p->type = "function";
+  p->arguments = {""};
+  p->maker = std::move(maker);
+}
+
+/// A new procedural with the state of the moment. Null, with a message: it cannot be kept.
+Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<const float> b,
+                                         slvm::SourceRange where) {
+  if (procedurals_ == kMostProcedurals) {
+    error(call, fmt::format("more than {} procedurals in a frame; the request is skipped", kMostProcedurals),
+          RiError::kLimit);
+    return nullptr;
+  }
   // "Infinite" bounds stay numbers when they are transformed.
   constexpr float kFarthest = 1e15f;
-  p.bound = {glm::clamp(Vec3(b[0], b[2], b[4]), -kFarthest, kFarthest),
-             glm::clamp(Vec3(b[1], b[3], b[5]), -kFarthest, kFarthest)};
+  Box bound{glm::clamp(Vec3(b[0], b[2], b[4]), -kFarthest, kFarthest),
+            glm::clamp(Vec3(b[1], b[3], b[5]), -kFarthest, kFarthest)};
+  if (bound.empty()) {
+    error_at(where, call, "the bound is empty; expected xmin xmax ymin ymax zmin zmax", RiError::kRange);
+    return nullptr;
+  }
+  ++procedurals_;
+  Procedural& p = scene_.procedurals.emplace_back();
+  p.bound = bound;
   p.attributes = attributes_;
   p.object_to_camera = ctm_;
   p.motion = motion_;
   p.folder = folder_;
   p.displacement_bound = displacement_bound_of(*attributes_, ctm_);
   p.depth = procedural_depth_ + 1;
+  p.may_run = allow_programs || (allow_own_programs && depth_ == 0);
   p.where = call.where;
-  if (p.bound.empty()) {
-    error_at(call.arguments[2].where, call, "the bound is empty; expected xmin xmax ymin ymax zmin zmax");
-    return;
+  // The solids it makes come late: their place among the operands is kept.
+  p.solid = solid_;
+  if (solid_.in_operation()) p.solid.node = solid_.tree->add(SolidOperation::kUnion, solid_.node);
+  return &p;
+}
+
+/// Carries out the procedurals among the operands of solids: these must be known before any is drawn.
+void Interpreter::complete_solids() {
+  Camera camera(scene_.options);
+  const PixelFilter& filter = scene_.options.filter;
+  std::vector<Procedural> others;
+  for (size_t i = 0; i < scene_.procedurals.size() && !stopped_; ++i) {
+    Procedural p = std::move(scene_.procedurals[i]);
+    if (!p.solid.is_operand())
+      others.push_back(std::move(p));
+    else if (auto seen = seen_bound(p, camera, {filter.xwidth, filter.ywidth}))
+      run(p, seen->area * scene_.options.relative_detail); // may add to the row
   }
-  ++procedurals_;
-  scene_.procedurals.push_back(std::move(p));
+  scene_.procedurals = std::move(others);
 }
 
 SceneContent Interpreter::make_content(const Procedural& p, float area) {
   if (stopped_) return {};
-  if (p.depth > kDeepest) {
-    report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
-    return {};
-  }
   auto spaces = spaces_;
-  run(p, area);
+  run(p, area * scene_.options.relative_detail);
+  complete_solids();
+  scene_.copies.clear();
   SceneContent content{std::exchange(scene_.primitives, {}), std::exchange(scene_.procedurals, {}), {}};
   for (const auto& [name, space] : spaces_)
     if (auto it = spaces.find(name); it == spaces.end() || it->second != space) content.spaces[name] = space;
@@ -96,33 +136,68 @@ SceneContent Interpreter::make_content(const Procedural& p, float area) {
 
 void Interpreter::report(const Procedural& p, std::string_view text) {
   if (error_handler_ == ErrorHandling::kIgnore) return;
-  diagnostics_.error(p.where, fmt::format("Procedural: {} \"{}\": {}", p.type, p.arguments[0], text));
+  error_kind_ = RiError::kSystem;
+  std::string name = p.maker ? p.type : fmt::format("{} \"{}\"", p.type, p.arguments[0]);
+  diagnostics_.error(p.where, fmt::format("Procedural: {}: {}", name, text));
 }
 
 /// With the state of the request; what it changes ends with it.
 void Interpreter::run(const Procedural& p, float area) {
+  if (p.depth > kDeepest) {
+    report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
+    return;
+  }
   auto attributes = std::exchange(attributes_, p.attributes);
   Matrix4 ctm = std::exchange(ctm_, p.object_to_camera);
   MotionMatrices motion = std::exchange(motion_, p.motion);
   std::string folder = std::exchange(folder_, p.folder);
+  SolidPlace solid = std::exchange(solid_, p.solid);
   std::vector<Block> blocks = std::exchange(blocks_, {});
   procedural_depth_ = p.depth;
-  ++depth_;
-  if (p.type == "DelayedReadArchive")
+  bool file = !p.maker; // a function of a program is as good as the program
+  if (file) ++depth_;
+  if (p.maker)
+    p.maker->make(area);
+  else if (p.type == "DelayedReadArchive")
     read_archive_file(p.arguments[0], p.where, "Procedural");
+  else if (p.type == "DynamicLoad")
+    run_plug_in(p, area);
   else
     run_program(p, area);
-  --depth_;
+  if (file) --depth_;
   procedural_depth_ = 0;
   if (recording_.depth > 0 || !blocks_.empty()) report(p, "a block is left open at its end");
   recording_ = {};
   skip_depth_ = 0;
   in_motion_.reset();
   blocks_ = std::move(blocks);
+  solid_ = solid;
   folder_ = folder;
   ctm_ = ctm;
   motion_ = std::move(motion);
   attributes_ = attributes;
+}
+
+void Interpreter::run_plug_in(const Procedural& p, float area) {
+  const std::string& name = p.arguments[0];
+  auto it = plug_ins_.find(name);
+  if (it == plug_ins_.end()) {
+    it = plug_ins_.emplace(name, nullptr).first;
+    auto loaded = load_plug_in(name, procedural_folders, scene_.options.search_paths["procedural"]);
+    if (!loaded) {
+      report(p, loaded.error());
+      return;
+    }
+    it->second = std::move(*loaded);
+  }
+  if (!it->second) return; // it failed before, and that was said
+  std::string problem;
+  auto functions = [&, plug_in = it->second] { problem = plug_in->make(p.arguments[1], area); };
+  if (around_plug_in)
+    around_plug_in(p.where, functions);
+  else
+    functions();
+  if (!problem.empty()) report(p, problem);
 }
 
 void Interpreter::run_program(const Procedural& p, float area) {
@@ -148,7 +223,7 @@ void Interpreter::run_program(const Procedural& p, float area) {
 }
 
 slvm::Result<std::unique_ptr<Program>> Interpreter::start_program(const Procedural& p) {
-  if (!allow_programs) return slvm::Error{"scenes may run programs only with --allow-programs"};
+  if (!p.may_run) return slvm::Error{"scenes may run programs only with --allow-programs"};
   std::vector<std::string> command;
   std::istringstream words(p.arguments[0]);
   for (std::string word; words >> word;)

@@ -100,21 +100,20 @@ bool Interpreter::subdivision_tags(const RequestCall& call, size_t points, Subdi
 
 void Interpreter::subdivision_mesh(const RequestCall& call) {
   const std::string& scheme = call.text(0);
-  if (scheme != "catmull-clark" && scheme != "bilinear")
+  if (scheme != "catmull-clark" && scheme != "bilinear" && scheme != "loop")
     diagnostics_.warning(
         call.arguments[0].where, "rib",
         fmt::format("{}: scheme \"{}\" is not known; read as \"catmull-clark\"", call.info().name, scheme));
   SubdivisionMesh mesh;
   mesh.bilinear = scheme == "bilinear";
+  mesh.loop = scheme == "loop";
   mesh.nvertices = call.integers(1);
   mesh.vertices = call.integers(2);
-  auto corners = check_loops(call, 1, mesh.nvertices);
-  if (!corners) return;
-  auto points = check_vertices(call, 2, *corners);
-  if (!points) return;
-  std::vector<TypedParam> vars = primitive_vars(call, {mesh.nvertices.size(), *points, *points, *corners});
+  auto sizes = sizes_of(call);
+  if (!sizes) return;
+  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
-  if (!take_positions(call, vars, P) || !subdivision_tags(call, *points, mesh)) return;
+  if (!take_positions(call, vars, P) || !subdivision_tags(call, sizes->vertex, mesh)) return;
   auto made = add_subdivision(mesh, P, vars, primitive_state(), scene_.primitives);
   if (!made)
     error(call, made.error());

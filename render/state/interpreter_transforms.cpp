@@ -81,8 +81,8 @@ void Interpreter::coord_sys_transform(const RequestCall& call) {
   if (auto m = find_space(call.text(0)))
     ctm_ = *m;
   else
-    error_at(call.arguments[0].where, call,
-             fmt::format("no coordinate system is named \"{}\"", call.text(0)));
+    error_at(call.arguments[0].where, call, fmt::format("no coordinate system is named \"{}\"", call.text(0)),
+             RiError::kBadToken);
 }
 
 } // namespace render

@@ -29,7 +29,8 @@ enum class FilterKind : uint8_t {
   kSeparableCatmullRom,
   kBlackmanHarris,
   kLanczos,
-  kBessel
+  kBessel,
+  kFunction, ///< PixelFilter::function
 };
 /// By the name a scene uses: "box", "catmull-rom"...
 std::optional<FilterKind> find_filter(std::string_view name);
@@ -39,6 +40,9 @@ std::string filter_names();
 struct PixelFilter {
   FilterKind kind = FilterKind::kGaussian;
   float xwidth = 2, ywidth = 2;
+  bool operator==(const PixelFilter&) const = default;
+  /// Of kFunction: the weight at (x, y) from the centre, given the two widths. Called from many threads.
+  float (*function)(float x, float y, float xwidth, float ywidth) = nullptr;
 };
 
 /// What is on the side its normal points to is not drawn. Camera space.
@@ -98,17 +102,21 @@ struct Options {
   float shutter_open = 0, shutter_close = 0, shutter_offset = 0;
   /// The transformation in force at Projection: acts after the projection, on the image plane.
   Matrix4 screen_transform;
+  float relative_detail = 1;
 
   // sampling and image
   int xsamples = 2, ysamples = 2;
   bool jitter = true;
-  bool subpixel = false; ///< a pixel of the image for each sample
+  bool subpixel = false;     ///< a pixel of the image for each sample
+  bool sample_motion = true; ///< false: what moves is drawn where it is when the shutter opens
+  bool no_image = false;     ///< Hider "null": nothing is rendered
   DepthFilter depth_filter = DepthFilter::kMin;
   std::optional<DepthMaskRequest> depth_mask;
   PixelFilter filter;
   float gain = 1, gamma = 1;
   Quantization rgba;
   Quantization z{0, 0, 0, 0, false};
+  std::map<std::string, Quantization> channel_quantization; ///< of other channels, by name
   std::vector<DisplayRequest> displays;
   std::map<std::string, ChannelRequest> channels; ///< by name
   std::shared_ptr<const ShaderRequest> imager;
@@ -117,6 +125,8 @@ struct Options {
   int bucket_width = 32, bucket_height = 32;
   int grid_size = 256; ///< micropolygons in a grid, at most
   int eye_splits = 10;
+  int threads = 0; ///< 0: not said
+  float texture_megabytes = 1024;
   Color opacity_threshold{0.996f}; ///< opacity at which a sample counts as closed
   Color depth_threshold{1.0f};     ///< opacity at which a surface shows in z images
 

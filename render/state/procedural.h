@@ -13,16 +13,28 @@
 
 namespace render {
 
+/// Makes the geometry of a procedural by requests to the interpreter: a function of the C interface. It may
+/// be destroyed in any thread, when nothing is to be made any more.
+class GeometryMaker {
+public:
+  virtual ~GeometryMaker() = default;
+  /// `detail`: pixels the bound covers. Called once at most, from any thread, but never two of them at once.
+  virtual void make(float detail) = 0;
+};
+
 struct Procedural {
   std::string type;
   std::vector<std::string> arguments;
-  Box bound; ///< object space
+  std::shared_ptr<GeometryMaker> maker; ///< where there is no type
+  Box bound;                            ///< object space
   std::shared_ptr<Attributes> attributes;
   Matrix4 object_to_camera;     ///< when the shutter opens
   MotionMatrices motion;        ///< when it moves
   float displacement_bound = 0; ///< of its attributes, in camera space
+  SolidPlace solid;             ///< the solid block it stands in
   std::string folder;           ///< of the file it stands in
   int depth = 0;                ///< procedurals it came from
+  bool may_run = false;         ///< programs
   slvm::SourceRange where;
 };
 

@@ -11,6 +11,13 @@
 
 namespace render {
 
+/// An instance of a recorded object: which primitives it made, and where they stand.
+struct ObjectCopy {
+  const void* object = nullptr; ///< tells objects apart
+  size_t first = 0, count = 0;  ///< of Scene::primitives
+  Matrix4 to_camera;
+};
+
 /// What a procedural holds.
 struct SceneContent {
   std::vector<Primitive> primitives;
@@ -25,6 +32,8 @@ struct Scene {
   /// Spaces named by CoordinateSystem, to camera.
   std::map<std::string, Matrix4> spaces;
   std::vector<Primitive> primitives;
+  std::vector<ObjectCopy> copies; ///< what rays may share; primitives may have changed since
+  uint32_t solids = 0; ///< so many CSG solids bound some of them
   /// Geometry that is made when the picture comes to it: Interpreter::make_content.
   std::vector<Procedural> procedurals;
 };

@@ -53,7 +53,8 @@ std::optional<Value> option_value(const Options& o, std::string_view name) {
   if (n == "Shutter") return numbers({o.shutter_open, o.shutter_close});
   if (n == "Clipping") return numbers({o.near_plane, o.far_plane});
   if (n == "PixelSamples") return numbers({static_cast<float>(o.xsamples), static_cast<float>(o.ysamples)});
-  if (n == "DepthOfField") return numbers({kInfinity, 0, 0});
+  if (n == "DepthOfField") return numbers({o.fstop, o.focal_length, o.focal_distance});
+  if (n == "RelativeDetail") return number(o.relative_detail);
   if (n == "Frame") return number(o.frame);
   return named_value(o.named, name);
 }
@@ -63,6 +64,10 @@ std::optional<Value> attribute_value(const Attributes& a, std::string_view name)
   if (n == "ShadingRate") return number(a.shading_rate);
   if (n == "Sides") return number(a.sides);
   if (n == "Matte" || n == "matte") return number(a.matte ? 1 : 0);
+  if (n == "Detail") return number(a.detail.size);
+  if (n == "DetailRange") return numbers({a.detail.range.begin(), a.detail.range.end()});
+  if (n == "GeometricApproximation:motionfactor") return number(a.dicing.motion_factor);
+  if (n == "GeometricApproximation:focusfactor") return number(a.dicing.focus_factor);
   if (n == "Color") return colour(a.color);
   if (n == "Opacity") return colour(a.opacity);
   if (n == "TextureCoordinates") return numbers({a.texture_coordinates.begin(), a.texture_coordinates.end()});

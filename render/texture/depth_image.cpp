@@ -1,36 +1,14 @@
-// Depth images by OpenImageIO.
 #include "render/texture/depth_image.h"
 
-#include <OpenImageIO/imageio.h>
-
-#include <algorithm>
+#include "render/texture/image_module.h"
+#include "render/texture/tiff_file.h"
 
 namespace render {
 
-namespace {
-
-std::vector<float> matrix(const OIIO::ImageSpec& spec, const char* name) {
-  const OIIO::ParamValue* p = spec.find_attribute(name, OIIO::TypeMatrix);
-  if (!p) return {};
-  const auto* numbers = static_cast<const float*>(p->data());
-  return {numbers, numbers + 16};
-}
-
-} // namespace
-
 std::string read_depth_image(const std::string& path, DepthImage& out) {
-  auto in = OIIO::ImageInput::open(path);
-  if (!in) return OIIO::geterror();
-  const OIIO::ImageSpec& spec = in->spec();
-  out.world_to_camera = matrix(spec, "worldtocamera");
-  out.world_to_screen = matrix(spec, "worldtoscreen");
-  out.width = spec.width;
-  out.height = spec.height;
-  out.depth.resize(static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height));
-  int channel = std::max(spec.z_channel, 0);
-  if (!in->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, out.depth.data()))
-    return in->geterror();
-  return {};
+  if (read_depth_tiff(path, out)) return {};
+  const ImageModule& module = image_module();
+  return module.problem.empty() ? module.read_depth(path, out) : module.problem;
 }
 
 } // namespace render

@@ -13,6 +13,8 @@ struct MakeSettings {
 };
 
 std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings&);
+/// A texture of heights: the first channel of the image.
+std::string make_bump(const std::string& image, const std::string& bump, const MakeSettings&);
 std::string make_latlong(const std::string& image, const std::string& texture, const MakeSettings&);
 /// Faces px nx py ny pz nz, each seen from the middle of the cube with `fov` degrees. They are put together
 /// as one latitude-longitude image, so that there is one way to look up environments, without seams.

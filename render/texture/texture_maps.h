@@ -1,5 +1,6 @@
-// Texture, environment and shadow maps by OpenImageIO. Ordinary image files serve as well as tiled mip-maps,
-// for which OpenImageIO makes levels as they are needed.
+// Texture, environment and shadow maps: files found by name; textures by OpenImageIO's module, which is
+// loaded when the first is looked up (image_module.h). Ordinary image files serve as well as tiled mip-maps:
+// levels are made as they are needed.
 #pragma once
 
 #include "slvm/textures.h"
@@ -12,6 +13,7 @@
 
 namespace render {
 
+class ImageLookups;
 class ShadowMap;
 
 class TextureMaps : public slvm::TextureServices {
@@ -19,6 +21,7 @@ public:
   struct Settings {
     std::vector<std::string> folders; ///< where maps are looked for
     float shadow_bias = 0.01f;        ///< where the shader says none
+    float shadow_bias_spread = 0;     ///< by chance, up to so much is added to it at each lookup
     float memory_megabytes = 1024;
   };
   explicit TextureMaps(const Settings&);
@@ -40,19 +43,21 @@ public:
   Usage usage();
 
 private:
-  class System;
-  System& system(); ///< made when it is first asked for
+  ImageLookups* lookups(); ///< made when it is first asked for
   /// The map, read once; null with the reason.
   std::shared_ptr<const ShadowMap> shadow_map(const std::string& name, std::string& problem);
 
   Settings settings_;
-  std::once_flag system_made_;
-  std::unique_ptr<System> system_;
-  /// The file of a map; its name when there is none.
-  std::string file_of(std::string_view map);
+  std::once_flag lookups_made_;
+  std::unique_ptr<ImageLookups> lookups_;
+  struct File {
+    std::string path;    ///< the map's name when there is none
+    bool exists = false; ///< or may do, by OpenImageIO's rules for names
+  };
+  const File& file_of(std::string_view map);
 
   std::mutex files_mutex_;
-  std::map<std::string, std::string, std::less<>> files_;
+  std::map<std::string, File, std::less<>> files_;
   std::map<std::string, std::string> replaced_;
   std::mutex shadows_mutex_;
   struct LoadedShadow {

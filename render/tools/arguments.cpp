@@ -2,8 +2,8 @@
 // (--progress).
 #include "render/tools/arguments.h"
 
+#include "render/setup/places.h"
 #include "render/state/search_path.h"
-#include "render/tools/places.h"
 #include "slvm/support/shared_library.h"
 
 #include <CLI/CLI.hpp>
@@ -17,11 +17,27 @@ namespace render::tools {
 
 namespace {
 
-constexpr std::string_view kLongNames[] = {
-    "help",       "version",       "progress",    "Progress", "progressformat", "crop",
-    "res",        "cwd",           "shaders",     "archives", "threads",        "verbose",
-    "nowarn",     "Werror",        "procedurals", "dso",      "allow-programs", "program-timeout",
-    "statistics", "statisticsfile"};
+constexpr std::string_view kLongNames[] = {"help",
+                                           "version",
+                                           "progress",
+                                           "Progress",
+                                           "progressformat",
+                                           "crop",
+                                           "res",
+                                           "cwd",
+                                           "shaders",
+                                           "archives",
+                                           "threads",
+                                           "verbose",
+                                           "nowarn",
+                                           "Werror",
+                                           "preview",
+                                           "procedurals",
+                                           "dso",
+                                           "allow-programs",
+                                           "program-timeout",
+                                           "statistics",
+                                           "statisticsfile"};
 
 /// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
 std::vector<std::string> normalise(int argc, char** argv) {
@@ -32,6 +48,8 @@ std::vector<std::string> normalise(int argc, char** argv) {
       out.push_back("--threads=" + a.substr(3));
       continue;
     }
+    // Its file name is optional and must not be taken from the scenes that follow.
+    if (a == "--preview" || a == "-preview") a = "--preview=preview.png";
     std::string_view name = std::string_view(a).substr(0, a.find('='));
     if (name.size() > 2 && name[0] == '-' && name[1] != '-')
       for (std::string_view known : kLongNames)
@@ -54,15 +72,33 @@ std::optional<int> thread_count(const std::string& text) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) + static_cast<int>(n));
 }
 
-/// The current directory and what comes with Anemone, unless the environment and then the option say
-/// otherwise.
-std::vector<std::string> directories(const std::string& option, const char* variable,
-                                     const std::vector<std::string>& installed) {
-  const char* environment = std::getenv(variable);
-  std::vector<std::string> standard{"."};
-  standard.insert(standard.end(), installed.begin(), installed.end());
-  if (environment) standard = parse_search_path(environment, {}, standard);
-  return option.empty() ? standard : parse_search_path(option, {}, standard);
+/// Search paths as they are given.
+struct Places {
+  std::string shaders, archives, procedurals, plugins;
+};
+
+void add_places(CLI::App& app, Places& places, Arguments& out) {
+  app.add_option("--cwd", out.directory, "change to this directory first");
+  app.add_option("--shaders", places.shaders,
+                 "directories for shaders, separated by ':' (@: the usual ones); @ in a scene's path "
+                 "(environment: ANEMONE_SHADERS)");
+  app.add_option("--archives", places.archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
+  app.add_option(
+      "--procedurals", places.procedurals,
+      "the same for programs and plug-ins that make geometry; plug-ins (Procedural \"DynamicLoad\") come "
+      "from nowhere else (environment: ANEMONE_PROCEDURALS)");
+  app.add_option(
+      "--dso", places.plugins,
+      "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
+      "code (environment: ANEMONE_DSO_PATH)");
+}
+
+void take_places(const Places& places, Arguments& out) {
+  out.shader_path = setup::search_path(places.shaders, "ANEMONE_SHADERS", setup::standard_shader_folders());
+  out.archive_path = setup::search_path(places.archives, "ANEMONE_ARCHIVES", {});
+  out.procedural_path = setup::search_path(places.procedurals, "ANEMONE_PROCEDURALS", {});
+  out.procedural_folders = setup::procedural_folders(places.procedurals, "ANEMONE_PROCEDURALS");
+  out.plugin_folders = slvm::plugin_folders(places.plugins);
 }
 
 } // namespace
@@ -72,7 +108,8 @@ Arguments parse_arguments(int argc, char** argv) {
   CLI::App app("Renders RIB scenes with RSL shaders.", "slrender");
   app.set_help_flag("-h,--help", "print this and leave");
   app.set_version_flag("--version", "slrender 0.1.0 (Anemone)");
-  std::string threads = "all", shaders, archives, procedurals, plugins;
+  std::string threads = "all";
+  Places places;
   bool updating = false, lines = false;
   std::vector<float> crop;
   std::vector<int> resolution;
@@ -92,23 +129,16 @@ Arguments parse_arguments(int argc, char** argv) {
       ->allow_extra_args(false);
   app.add_option("-d,--display", out.display,
                  "where the first Display goes: a file name such as out.png, or a type such as openexr");
-  app.add_option("--cwd", out.directory, "change to this directory first");
-  app.add_option("--shaders", shaders,
-                 "directories for shaders, separated by ':' (@: the usual ones); @ in a scene's path "
-                 "(environment: ANEMONE_SHADERS)");
-  app.add_option("--archives", archives, "the same for archives (environment: ANEMONE_ARCHIVES)");
-  app.add_option("--procedurals", procedurals,
-                 "the same for programs that make geometry (environment: ANEMONE_PROCEDURALS)");
-  app.add_option(
-      "--dso", plugins,
-      "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
-      "code (environment: ANEMONE_DSO_PATH)");
+  add_places(app, places, out);
   app.add_flag("--allow-programs", out.allow_programs,
                "let scenes run the programs they name (Procedural \"RunProgram\")");
   app.add_option("--program-timeout", out.program_seconds, "seconds such a program may be silent (60)")
       ->check(CLI::Range(0.01, 1e6));
   app.add_flag(
       "-v,--verbose", [&](auto n) { out.verbosity = 1 + static_cast<int>(n); }, "say what is done");
+  app.add_option(
+      "--preview", out.preview,
+      "--preview=FILE: keep a PNG of what is finished up to date while rendering; alone: preview.png");
   app.add_flag("--statistics", out.statistics,
                "print what each frame cost: grids, shading by shader, memory");
   app.add_option("--statisticsfile", out.statistics_file,
@@ -141,10 +171,7 @@ Arguments parse_arguments(int argc, char** argv) {
   if (crop.size() == 4) out.crop = {crop[0], crop[1], crop[2], crop[3]};
   if (resolution.size() == 2) out.resolution = {resolution[0], resolution[1]};
   if (out.files.empty()) out.files.emplace_back("-");
-  out.shader_path = directories(shaders, "ANEMONE_SHADERS", standard_shader_folders());
-  out.archive_path = directories(archives, "ANEMONE_ARCHIVES", {});
-  out.procedural_path = directories(procedurals, "ANEMONE_PROCEDURALS", {});
-  out.plugin_folders = slvm::plugin_folders(plugins);
+  take_places(places, out);
   return out;
 }
 

@@ -22,10 +22,12 @@ struct Arguments {
   std::string directory;
   std::vector<std::string> shader_path, archive_path;
   std::vector<std::string> procedural_path;
-  std::vector<std::string> plugin_folders;
+  std::vector<std::string> plugin_folders;  ///< of shaders
+  std::vector<std::string> procedural_folders; ///< of procedurals: those of the path that the user gave
   bool allow_programs = false;
   double program_seconds = 60;
   bool statistics = false;
+  std::string preview;         ///< a PNG file kept up to date; empty: none
   std::string statistics_file; ///< JSON lines; empty: none
   int verbosity = 1;
   bool warnings_are_errors = false, no_warnings = false;

@@ -67,11 +67,23 @@ slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
   return out;
 }
 
+// Counts the calls that must not give the same as each other: random() and what shoots rays.
+slvm::ir::ValueId Lowering::next_count() {
+  const ValueId count = values_[random_counter_];
+  values_[random_counter_] = b_.call("operator+", "float(float a, float b)", {count, b_.number(1)});
+  return count;
+}
+
+// Where the rays of a call go depends on how many calls there were before, too.
+void Lowering::add_seed(Values& args) {
+  args.push_back(b_.string(":call"));
+  args.push_back(next_count());
+}
+
 // random() has no arguments: its values come from a counter, so that they depend on nothing but place and
 // program.
 slvm::ir::ValueId Lowering::random_call(const CallExpr& e, const slvm::ShadeopInfo& info) {
-  ValueId count = values_[random_counter_];
-  values_[random_counter_] = b_.call("operator+", "float(float a, float b)", {count, b_.number(1)});
+  const ValueId count = next_count();
   bool uniform = uniform_wanted_ || info.name == "randomgrid";
   for (ShadeopId id : slvm::shadeop_overloads(uniform ? "randomuniform" : "randomvarying"))
     if (slvm::shadeop(id).signature.result == e.type) return call_row(id, {count});
@@ -100,8 +112,15 @@ slvm::ir::ValueId Lowering::builtin_call(const CallExpr& e) {
   }
   for (const TokenArg& t : e.tokens) {
     args.push_back(value(*t.token));
-    args.push_back(value(*t.value));
+    if (info.flags & slvm::kTokenOut && t.info && t.info->output) {
+      places.push_back(place(*t.value));
+      result_types.push_back(t.value->type);
+      args.push_back(load(places.back()));
+    } else {
+      args.push_back(value(*t.value));
+    }
   }
+  if (info.flags & slvm::kRays && !signature.token_set.empty()) add_seed(args);
   return call_into(called(e), args, result_types, places);
 }
 

@@ -52,6 +52,8 @@ private:
   void block(const BlockStmt& s);
   void declaration(const Variable& v);
   void if_statement(const IfStmt& s);
+  /// Either branch may be null.
+  void two_sided(ValueId condition, const StmtPtr& then_branch, const StmtPtr& else_branch);
   void loop(const LoopStmt& s);
   void jump(const JumpStmt& s);
   void return_statement(const ReturnStmt& s);
@@ -60,6 +62,9 @@ private:
   void receive_from_light(const std::vector<TokenArg>& tokens);
   void emission(const EmissionStmt& s);
   void gather(const GatherStmt& s);
+  /// What the call before the loop reads.
+  Values gather_args(const GatherStmt& s);
+  void receive_from_ray(const std::vector<TokenArg>& tokens);
   void initialise_array(const Variable& v);
 
   /// A loop, light loop or inlined function that code inside may leave.
@@ -121,6 +126,8 @@ private:
   /// A call whose result comes first and whose outputs go to these places; gives the result.
   ValueId call_into(ShadeopId, const Values& args, const std::vector<Type>& result_types,
                     const std::vector<Place>& places);
+  ValueId next_count();
+  void add_seed(Values& args);
   ValueId random_call(const CallExpr& e, const slvm::ShadeopInfo& info);
   /// The statements of a function or shader; `result`: variable index of what it returns, 0 for none.
   void function_body(const BlockStmt& body, size_t result);
@@ -151,7 +158,7 @@ private:
   std::vector<slvm::SourceCall>& calls_;
   int library_depth_ = 0;        ///< RSL bodies of built-ins around this point
   std::vector<ValueId> targets_; ///< old values of compound assignments being evaluated
-  size_t random_counter_ = 0;    ///< variable index of the hidden counter behind random()
+  size_t random_counter_ = 0;    ///< variable index of the hidden counter behind random() and rays
   bool uniform_wanted_ =
       false; ///< inside the value of a variable declared uniform: random() is uniform there
 };

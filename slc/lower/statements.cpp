@@ -110,7 +110,10 @@ void Lowering::initialise_array(const Variable& v) {
 }
 
 void Lowering::if_statement(const IfStmt& s) {
-  ValueId condition = value(*s.condition);
+  two_sided(value(*s.condition), s.then_branch, s.else_branch);
+}
+
+void Lowering::two_sided(ValueId condition, const StmtPtr& then_branch, const StmtPtr& else_branch) {
   auto side = [&](const StmtPtr& branch) {
     size_t declared_from = declared_.size();
     if (branch) statement(*branch);
@@ -119,7 +122,7 @@ void Lowering::if_statement(const IfStmt& s) {
     return ir::kNoValue;
   };
   branch(
-      condition, Type::kVoid, [&] { return side(s.then_branch); }, [&] { return side(s.else_branch); });
+      condition, Type::kVoid, [&] { return side(then_branch); }, [&] { return side(else_branch); });
 }
 
 void Lowering::loop_steps(const LoopStmt& s) {
@@ -286,9 +289,8 @@ void Lowering::emission(const EmissionStmt& s) {
     values_[changed[i]] = m_.insts[id].results[i];
 }
 
-// gather and traverse are calls whose row says that the build cannot serve them: the binder names the
-// statement.
-void Lowering::gather(const GatherStmt& s) {
+// Variables that rays set are named with a value of their type, arrays by themselves.
+Lowering::Values Lowering::gather_args(const GatherStmt& s) {
   Values args{value(*s.category), value(*s.position), value(*s.direction)};
   if (!s.is_traverse) {
     args.push_back(value(*s.angle));
@@ -296,9 +298,51 @@ void Lowering::gather(const GatherStmt& s) {
   }
   for (const TokenArg& t : s.tokens) {
     args.push_back(value(*t.token));
-    args.push_back(value(*t.value));
+    const bool output = t.info && t.info->output;
+    if (output && t.value->array_length != kNotArray)
+      args.push_back(load(place(*t.value)));
+    else
+      args.push_back(output ? zero(t.value->type) : value(*t.value));
   }
-  b_.call(slvm::shadeop_overloads(s.is_traverse ? "traverse" : "gather")[0], args, {});
+  add_seed(args);
+  return args;
+}
+
+void Lowering::receive_from_ray(const std::vector<TokenArg>& tokens) {
+  for (const TokenArg& t : tokens) {
+    if (!t.info || !t.info->output) continue;
+    Place p = place(*t.value);
+    call_into(slvm::shadeop_overloads("gathered")[p.whole_array ? 1 : 0], {value(*t.token), load(p)},
+              {t.value->type}, {p});
+  }
+}
+
+// A loop over rays: each round sets the variables, then takes one of the two blocks.
+void Lowering::gather(const GatherStmt& s) {
+  Values args = gather_args(s);
+  Frame frame{true, in_scope(), nullptr};
+  Values initial = values_for(frame.carried);
+  args.insert(args.end(), initial.begin(), initial.end());
+  frames_.push_back(frame);
+  ir::Region body;
+  open_carried(body, frame.carried);
+  ir::Region* outer = b_.region();
+  b_.set_region(&body);
+  back_to(s);
+  const Type hit_type = Type::kBool;
+  const ValueId hit = b_.call(slvm::shadeop_overloads("gatherhit")[0], {}, std::span(&hit_type, 1))[0];
+  receive_from_ray(s.tokens);
+  two_sided(hit, s.body, s.else_body);
+  if (!b_.terminated()) b_.next_round(0, values_for(frame.carried));
+  b_.set_region(outer);
+  frames_.pop_back();
+  std::vector<ir::Region> regions;
+  regions.push_back(std::move(body));
+  back_to(s);
+  const ShadeopId row = slvm::shadeop_overloads(s.is_traverse ? "traverse" : "gather")[0];
+  ir::InstId id =
+      b_.region_inst(ir::Op::kGather, row, std::move(args), std::move(regions), types_of(frame.carried));
+  set_values(frame.carried, m_.insts[id].results);
 }
 
 } // namespace slc

@@ -50,7 +50,7 @@ private:
       makers_[v] = &inst;
     // What lanes keep that a light does not reach, the source does not read.
     bool emits = inst.op == ir::Op::kIlluminate || inst.op == ir::Op::kSolar;
-    for (size_t i = 0; i < (emits ? ir::fixed_args(inst.op) : inst.args.size()); ++i)
+    for (size_t i = 0; i < (emits ? ir::fixed_args(inst) : inst.args.size()); ++i)
       used_[inst.args[i]] = true;
     if (inst.op == ir::Op::kCall) called_.insert({inst.index, key(inst.where)});
     if (computes(inst.op)) worked_.insert(key(inst.where));
@@ -113,6 +113,7 @@ private:
   void visit(const ir::Inst& inst) {
     switch (inst.op) {
     case ir::Op::kCall: visit_call(inst); break;
+    case ir::Op::kGather: visit_gather(inst); break;
     case ir::Op::kIlluminance: visit_light_loop(inst); break;
     case ir::Op::kIlluminate: add(uses_.lights, "illuminate", {}, inst.where); break;
     case ir::Op::kSolar: add(uses_.lights, "solar", {}, inst.where); break;
@@ -134,14 +135,7 @@ private:
     if (info.flags & slvm::kMessage) add_named(uses_.messages, info.name, inst.args[0], inst.where);
     if (info.name == "lightsend" && !inst.args.empty())
       add_named(uses_.sent, "illuminance", inst.args[0], inst.where);
-    if (info.flags & slvm::kRays) {
-      bool category = info.name == "gather" || info.name == "traverse";
-      if (category)
-        add_named(uses_.rays, info.name, inst.args[0], inst.where);
-      else
-        add(uses_.rays, info.name, {}, inst.where);
-      if (category) gathered(inst, static_cast<size_t>(s.param_count));
-    }
+    if (info.flags & slvm::kRays || asks_for_rays(inst)) add(uses_.rays, info.name, {}, inst.where);
     if (info.flags & slvm::kLights) add(uses_.lights, info.name, {}, inst.where);
     if (info.name == "attribute" || info.name == "option" || info.name == "rendererinfo" ||
         info.name == "rayinfo")
@@ -153,12 +147,25 @@ private:
       add(uses_.derivatives, info.name, {}, inst.where);
   }
 
+  /// A lookup of the map "raytrace".
+  bool asks_for_rays(const ir::Inst& inst) const {
+    const slvm::ShadeopInfo& info = m_.called(inst);
+    if (info.name != "environment" && info.name != "shadow") return false;
+    std::vector<Naming> maps;
+    trace(inst.args[0], maps);
+    return std::any_of(maps.begin(), maps.end(), is_raytrace);
+  }
+  static bool is_raytrace(const Naming& n) { return n.kind == Naming::kConstant && n.text == "raytrace"; }
+
   // Files among the arguments: the map of a texture function, a parameter "file", and maps and point clouds
   // that optional arguments name.
   void files(const ir::Inst& inst, const slvm::ShadeopInfo& info) {
     const slvm::Signature& s = info.signature;
     auto add_file = [&](ir::ValueId v) {
-      if (m_.type(v) == Type::kString) add_named(uses_.textures, info.name, v, inst.where);
+      std::vector<Naming> namings;
+      if (m_.type(v) == Type::kString) trace(v, namings);
+      for (const Naming& n : namings)
+        if (!is_raytrace(n)) add(uses_.textures, info.name, n, inst.where);
     };
     size_t next = 0; // outputs are no arguments
     for (int i = 0; i < s.param_count && next < inst.args.size(); ++i) {
@@ -176,9 +183,16 @@ private:
     }
   }
 
+  void visit_gather(const ir::Inst& inst) {
+    const slvm::ShadeopInfo& info = m_.called(inst);
+    add_named(uses_.rays, info.name, inst.args[0], inst.where);
+    add(uses_.derivatives, info.name, {}, inst.where);
+    gathered(inst, static_cast<size_t>(info.signature.param_count), ir::fixed_args(inst));
+  }
+
   // The pairs behind the arguments of gather: what is asked of the surfaces that rays hit.
-  void gathered(const ir::Inst& inst, size_t from) {
-    for (size_t i = from; i + 1 < inst.args.size(); i += 2) {
+  void gathered(const ir::Inst& inst, size_t from, size_t to) {
+    for (size_t i = from; i + 1 < to; i += 2) {
       std::vector<Naming> tokens;
       trace(inst.args[i], tokens);
       for (const Naming& t : tokens) {

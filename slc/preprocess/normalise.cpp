@@ -168,6 +168,7 @@ std::string normalise_source(std::string_view source, OpenEnds* open) {
   if (in_comment) out.insert(out.size() - 1, "*/");
   if (open) {
     open->comment = in_comment ? comment_line : 0;
+    open->conditionals = conditionals.size();
     if (!conditionals.empty()) std::tie(open->conditional, open->conditional_word) = conditionals.back();
   }
   return out;

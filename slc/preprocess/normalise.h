@@ -16,6 +16,7 @@ struct OpenEnds {
   size_t comment = 0;           ///< a `/*`; the end of the text closes it
   size_t conditional = 0;       ///< the innermost #if, #ifdef or #ifndef without #endif
   std::string conditional_word; ///< which of them
+  size_t conditionals = 0;      ///< how many have none
   /// Directives that do not exist, by line, blanked. Those within conditionals may be meant for others.
   std::vector<std::pair<size_t, std::string>> unknown;
 };

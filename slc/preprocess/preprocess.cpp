@@ -83,7 +83,7 @@ public:
   // Finds, reads and keeps an included file. False: reported.
   bool locate(const std::string& name, bool system, SourceRange where, std::string& path);
   void widen_to_name(SourceRange& where, const std::string& name) const;
-  std::string normalise(FileId file, std::string_view text) {
+  std::string normalise(FileId file, std::string_view text, bool included) {
     OpenEnds open;
     std::string clean = normalise_source(text, &open);
     for (const auto& [line, word] : open.unknown) {
@@ -95,10 +95,13 @@ public:
     }
     if (open.comment) report(diags_, Msg::kOpenComment, word_range({file, open.comment, 0}, 0));
     if (open.conditional && !open.comment) {
-      report(diags_, Msg::kOpenConditional,
+      // A header that lacks the end of its guard is harmless; a main file may have lost its shader.
+      report(diags_, included ? Msg::kOpenGuard : Msg::kOpenConditional,
              word_range({file, open.conditional, 1}, open.conditional_word.size() + 1),
              open.conditional_word);
-      open_conditional_ = true;
+      open_conditional_ = !included;
+      for (size_t i = 0; included && i < open.conditionals; ++i)
+        clean += "#endif\n";
     }
     return clean;
   }
@@ -107,7 +110,7 @@ public:
     if (!id) id = sources_.add(path, text);
     sources_.set_included_from(id, included_from);
     file_ids_[path] = id;
-    texts_[path] = normalise(id, text);
+    texts_[path] = normalise(id, text, true);
   }
   const std::string& normalised(const std::string& path) { return texts_[path]; }
 
@@ -440,7 +443,7 @@ PreprocessedText preprocess(FileId main, const PreprocessOptions& options, slvm:
                             slvm::Diagnostics& diags) {
   PreprocessedText out;
   State state(options, sources, diags, out);
-  std::string text = state.normalise(main, sources.text(main));
+  std::string text = state.normalise(main, sources.text(main), false);
   state.set_main(main);
   state.enter_file(std::string(sources.name(main)));
   try {

@@ -129,6 +129,11 @@ void ShadingContext::displace(const ShaderSet& set, Grid& grid) {
 }
 
 void ShadingContext::shade_displaced(const ShaderSet& set, Grid& grid) {
+  shade_surface(set, grid);
+  shade_atmosphere();
+}
+
+void ShadingContext::shade_surface(const ShaderSet& set, Grid& grid) {
   impl_->begin(set, grid);
   begin_output(grid, Global::kCi, Global::kCs);
   begin_output(grid, Global::kOi, Global::kOs);
@@ -136,7 +141,10 @@ void ShadingContext::shade_displaced(const ShaderSet& set, Grid& grid) {
   const bool surface_asks = set.surface && set.surface->bound().reads_messages;
   impl_->announce_volumes(surface_asks ? set.surface : set.atmosphere);
   impl_->execute(Impl::kSurface, set.surface);
-  impl_->execute(Impl::kAtmosphere, set.atmosphere);
+}
+
+void ShadingContext::shade_atmosphere() {
+  impl_->execute(Impl::kAtmosphere, impl_->shaders.atmosphere);
   impl_->plugins.end_grid();
 }
 

@@ -3,6 +3,7 @@
 // told of each instruction, and without.
 #include "slvm/exec/observer.h"
 #include "slvm/exec/plugin_call.h"
+#include "slvm/exec/rays/gather.h"
 #include "slvm/exec/run.h"
 
 #include <algorithm>
@@ -139,8 +140,28 @@ void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<con
   const GridCall grid_call{*this, info, grid_operands_, level, pc};
   if (target.plugin)
     call_plugin(grid_call, *target.plugin);
+  else if (info.flags & kRays && state.grid->samples() < points)
+    shoot_from_samples(grid_call, target.grid_op);
   else
     target.grid_op(grid_call);
+}
+
+// Of hits, the points beside shoot no rays of their own: what those of the hit bring holds for them, too.
+void ShaderRun::shoot_from_samples(const GridCall& call, GridOp op) {
+  const size_t samples = state.grid->samples();
+  entered_.assign(mask.words(), 0);
+  for (size_t i = 0; i < entered_.size(); ++i)
+    entered_[i] = full_mask_word(i, samples);
+  mask.push_if(entered_.data());
+  op(call);
+  mask.pop_if();
+  for (const GridOperand& o : call.operands) {
+    if (!o.store || !o.planes.step) continue;
+    const size_t planes = static_cast<size_t>(components(o.type)) * (o.array ? o.planes.elements : 1);
+    for (size_t c = 0; c < planes; ++c)
+      for (size_t i = samples; i < points; ++i)
+        o.planes.plane(c)[i] = o.planes.plane(c)[i % samples];
+  }
 }
 
 void ShaderRun::run_code(Frame& frame, uint32_t pc) {
@@ -206,6 +227,12 @@ void ShaderRun::narrow(Frame& f, const MaskStack& m) {
 
 bool ShaderRun::next_round(const Frame& f, MaskStack& m, uint32_t pc) {
   if (!m.next_round()) return false;
+  if (take_round(pc, mask_count(m.current(), f.active))) return true;
+  m.lanes_break(1);
+  return m.next_round();
+}
+
+bool ShaderRun::take_round(uint32_t pc, size_t lanes) {
   if (rounds_left_ > 0) {
     --rounds_left_;
     return true;
@@ -213,10 +240,19 @@ bool ShaderRun::next_round(const Frame& f, MaskStack& m, uint32_t pc) {
   report(
       pc, MessageSeverity::kError,
       fmt::format("a loop has not ended after {} rounds, and is left", state.machine.options().most_rounds),
-      mask_count(m.current(), f.active));
-  m.lanes_break(1);
-  return m.next_round();
+      lanes);
+  return false;
 }
+
+namespace {
+
+/// Whether the rest of a region is left out, since no lane is on. Strips that derivatives read go on: other lanes look at
+/// values of theirs. But not in a loop, which all lanes have left: another round must not change what it leaves behind.
+bool stops(const Frame& f, const MaskStack& m) {
+  return !m.any() && (!f.runs_idle || m.within_loop());
+}
+
+} // namespace
 
 template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, uint32_t pc) {
   const uint32_t* code = program.code.data();
@@ -271,26 +307,26 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       break;
     case Opcode::k_endif:
       m.pop_if();
-      if (!m.any() && !f.runs_idle) pc = w[0];
+      if (stops(f, m)) pc = w[0];
       break;
     case Opcode::k_uif:
       if (std::bit_cast<uint32_t>(*operand_at(f, w).data) == 0) pc = w[1] + 1 + instruction_words(code[w[1]]);
       break;
     case Opcode::k_uelse: pc = w[0]; break;
     case Opcode::k_uendif:
-      if (!m.any() && !f.runs_idle) pc = w[0];
+      if (stops(f, m)) pc = w[0];
       break;
     case Opcode::k_loop:
     case Opcode::k_block: m.push_loop(); break;
     case Opcode::k_endloop:
       if (next_round(f, m, at))
         pc = w[0];
-      else if (!m.any() && !f.runs_idle)
+      else if (stops(f, m))
         pc = w[1];
       break;
     case Opcode::k_endblock:
       m.pop_loop();
-      if (!m.any() && !f.runs_idle) pc = w[0];
+      if (stops(f, m)) pc = w[0];
       break;
     case Opcode::k_while:
     case Opcode::k_uwhile:
@@ -323,6 +359,7 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       begin_illuminate(*this, operand_at(f, &w[2]), w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
       m.push_if(lit_.data());
       entered_.assign(m.current(), m.current() + m.words());
+      emitting = Emitting::kIlluminate;
       if (!m.any()) pc = w[0];
       break;
     }
@@ -331,21 +368,47 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       begin_solar(*this, w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
       m.push_if(lit_.data());
       entered_.assign(m.current(), m.current() + m.words());
+      emitting = Emitting::kSolar;
       if (!m.any()) pc = w[0];
       break;
     }
     case Opcode::k_endilluminate:
     case Opcode::k_endsolar:
       end_emission(*this, entered_);
+      emitting = Emitting::kNothing;
       m.pop_if();
       if (!m.any()) pc = w[0];
       break;
+    case Opcode::k_gather:
+      m.push_loop();
+      // The call before may not have been made: an observer can leave it out.
+      if (gathers.open(w[1] != 0)) {
+        pc = next_ray(f, m, pc, w[0]);
+      } else {
+        m.pop_loop();
+        pc = w[0] + 1 + instruction_words(code[w[0]]);
+      }
+      break;
+    case Opcode::k_endgather: pc = next_ray(f, m, w[0], at); break;
     case Opcode::kCount: break;
     }
     // From if to continue: what works on masks.
     if (opcode >= static_cast<uint16_t>(Opcode::k_if) && opcode <= static_cast<uint16_t>(Opcode::k_continue))
       narrow(f, m);
   }
+}
+
+// Goes to the next ray that a lane still in the loop has, at `body`; after the last one past the endgather at
+// `end`, or to where that says when no lane is left.
+uint32_t ShaderRun::next_ray(const Frame& f, MaskStack& m, uint32_t body, uint32_t end) {
+  GatherLoop& loop = *gathers.current();
+  if (loop.next(*this, m.in_loop()) && take_round(end, mask_count(m.in_loop(), f.active))) {
+    m.enter_round(loop.lanes());
+    return body;
+  }
+  gathers.close();
+  m.pop_loop();
+  return m.any() ? end + 1 + instruction_words(program.code[end]) : program.code[end + 2];
 }
 
 // Goes to the next light that reaches a lane still in the loop, at `body`; after the last one past the

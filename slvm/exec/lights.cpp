@@ -207,6 +207,7 @@ bool LightLoop::next(ShaderRun& run, const MaskWord* in_loop) {
     if (!some) continue;
     ++at_;
     current_ = lit;
+    distant_ = emission->distant;
     if (Planes* p = run.slot(Global::kL)) *p = emission->to_light;
     if (Planes* p = run.slot(Global::kCl)) *p = emission->colour;
     if (Planes* p = run.slot(Global::kOl)) *p = emission->opacity;
@@ -238,6 +239,7 @@ void end_emission(ShaderRun& run, const std::vector<MaskWord>& lit) {
   if (run.emission_count == run.emissions.size()) run.emissions.emplace_back();
   Emission& e = run.emissions[run.emission_count++];
   e.lit = lit;
+  e.distant = run.emitting == ShaderRun::Emitting::kSolar;
   size_t pitch = run.pitch;
   bool stays = run.bound.emits_once || !run.bound.emits; // nothing will overwrite the run's own variables
   float* memory = e.memory.reserve((stays ? 3 : 12) * pitch);
@@ -262,8 +264,10 @@ void end_light(ShaderRun& run) {
     if (run.emission_count > 1 || run.bound.emits_once) return;
     // One block ran, of several: its colour is what the shader made of it.
     std::vector<MaskWord> lit = run.emissions[0].lit;
+    const bool distant = run.emissions[0].distant;
     run.emission_count = 0;
     end_emission(run, lit);
+    run.emissions[0].distant = distant;
   } else if (!run.bound.emits) {
     std::vector<MaskWord> lit;
     all_points(run, lit);

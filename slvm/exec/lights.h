@@ -22,6 +22,7 @@ struct Emission {
   PlaneMemory memory;        ///< -L, and where it cannot stay with the run: L, Cl, Ol
   std::vector<MaskWord> lit; ///< points inside the cone
   Planes to_light, from_light, colour, opacity;
+  bool distant = false; ///< parallel light: L is a direction, no way to the light
 };
 
 /// The kernels lights are computed with, found once.
@@ -78,6 +79,8 @@ public:
   const MaskWord* lanes() const { return lanes_.data(); }
   /// The light of this round, for lightsource(); null outside a loop.
   const LitGrid* current() const { return current_; }
+  /// The light of this round is infinitely far away.
+  bool is_distant() const { return distant_; }
   void end() { current_ = nullptr; }
   /// What later loops send to their lights, until send_nothing().
   void send(std::string_view name, Type type, uint32_t elements, const Operand& value, size_t pitch);
@@ -90,6 +93,7 @@ private:
   std::vector<std::pair<LitGrid*, const Emission*>> rounds_;
   size_t at_ = 0;
   const LitGrid* current_ = nullptr;
+  bool distant_ = false;
   Operand axis_, angle_;
   bool has_cone_ = false;
   std::vector<MaskWord> lanes_;

@@ -16,6 +16,7 @@
 
 #include "slvm/wide/mask.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace slvm {
@@ -43,6 +44,10 @@ public:
   /// All lanes but padding are on.
   bool all() const { return all_; }
   size_t depth() const { return entries_.size(); }
+  /// A loop is open.
+  bool within_loop() const {
+    return std::any_of(entries_.begin(), entries_.end(), [](const Entry& e) { return e.loop; });
+  }
   /// The mask of region `level`: 0 all lanes, depth() the current one, between them what will be restored.
   const MaskWord* at_level(size_t level) const;
 

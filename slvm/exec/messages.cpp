@@ -139,6 +139,14 @@ void ray_query(const GridCall& call) {
   if (q.name == "speculardepth") return number(ray.specular_depth);
   if (q.name == "diffusedepth") return number(ray.diffuse_depth);
   if (q.name == "shadowdepth") return number(ray.shadow_depth);
+  if (q.name == "weight" || q.name == "importance") {
+    auto weight = [&](size_t c, size_t i) { return ray.weight[c] ? ray.weight[c][i] : 1.0f; };
+    if (q.out.type == Type::kFloat) // of all colours
+      return varying(Type::kFloat, [&](const auto&, float, size_t, size_t i) {
+        return (weight(0, i) + weight(1, i) + weight(2, i)) / 3;
+      });
+    return varying(Type::kColor, [&](const auto&, float, size_t c, size_t i) { return weight(c, i); });
+  }
   if (q.name == "length")
     return varying(Type::kFloat, [](const auto&, float length, size_t, size_t) { return length; });
   if (q.name == "direction")

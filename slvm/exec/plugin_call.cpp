@@ -48,7 +48,8 @@ std::vector<uint32_t> active_points(const GridCall& call, std::span<const Plugin
   auto varies = [](const PluginOperand& o) {
     return (o.to && o.to->planes.step) || (o.from && o.from->planes.step);
   };
-  if (!points.empty() && std::none_of(operands.begin(), operands.end(), varies)) points.resize(1);
+  if (!points.empty() && std::none_of(operands.begin(), operands.end(), varies))
+    points.erase(points.begin() + 1, points.end());
   return points;
 }
 

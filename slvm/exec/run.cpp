@@ -20,6 +20,8 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal, std::spa
   unset_.clear();
   emission_count = 0;
   light_loop.end();
+  gathers.clear();
+  emitting = Emitting::kNothing;
   bind_registers();
   slots.resize(program.slots.size());
   for (size_t i = 0; i < slots.size(); ++i)

@@ -5,6 +5,7 @@
 #include "slvm/exec/bound.h"
 #include "slvm/exec/lights.h"
 #include "slvm/exec/mask_stack.h"
+#include "slvm/exec/rays/gather_stack.h"
 #include "slvm/kernels/table.h"
 #include "slvm/machine.h"
 
@@ -78,6 +79,10 @@ public:
       emissions; ///< what illuminate and solar gave so far (lights): the first emission_count
   size_t emission_count = 0;
   PlaneMemory cone_memory; ///< scratch of illuminate
+  /// The block of a light being run, which decides what L is.
+  enum class Emitting : uint8_t { kNothing, kIlluminate, kSolar };
+  Emitting emitting = Emitting::kNothing;
+  GatherStack gathers; ///< the loops over rays being run
 
   Operand operand(const Frame& f, uint32_t word) const {
     auto space = static_cast<size_t>(operand_space(word));
@@ -122,6 +127,7 @@ private:
   template <bool kObserved>
   void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end, bool all);
   void call(const Frame& frame, uint32_t pc, uint16_t import, std::span<const uint32_t> words);
+  void shoot_from_samples(const GridCall& call, GridOp op);
   void copy_planes(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words, bool masked);
   void first_active(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words);
   void array_load(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
@@ -138,10 +144,14 @@ private:
   const MaskWord* condition(const Frame& frame, const uint32_t* word);
   static void narrow(Frame& frame, const MaskStack& mask);
   uint32_t next_light(MaskStack& mask, uint32_t body, uint32_t end);
+  uint32_t next_ray(const Frame& frame, MaskStack& mask, uint32_t body, uint32_t end);
 
   /// The lanes still in a loop go on to the next round; false: there are none, or they have gone round for
   /// too long.
   bool next_round(const Frame& frame, MaskStack& mask, uint32_t pc);
+  /// Counts a round of those most_rounds allows. False, with a message: there are no more, and the loop must
+  /// be left.
+  bool take_round(uint32_t pc, size_t lanes);
 
   Frame frame_{};
   uint64_t rounds_left_ = 0;

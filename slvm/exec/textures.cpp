@@ -6,6 +6,7 @@
 // add.
 #include "slvm/exec/differences.h"
 #include "slvm/exec/query.h"
+#include "slvm/exec/rays/ray_means.h"
 
 #include <bit>
 #include <cmath>
@@ -15,10 +16,6 @@ namespace slvm {
 namespace {
 
 enum class MapKind : uint8_t { kTexture, kEnvironment, kShadow };
-
-std::string_view text_of(const ShaderRun& run, const Operand& o) {
-  return run.state.machine.strings().text(std::bit_cast<uint32_t>(*o.data));
-}
 
 Matrix4 current_to_world(const ShaderRun& run) {
   Matrix4 m;
@@ -113,6 +110,20 @@ private:
       };
       lookup_.along_u[c] = change(true);
       lookup_.along_v[c] = change(false);
+      if (o.step && out_.step) follow_footprint(lookup_.along_u[c], lookup_.along_v[c]);
+    }
+  }
+
+  /// Where rays hit, regions are not along u and v but what the ray covers.
+  void follow_footprint(std::vector<float>& along_u, std::vector<float>& along_v) const {
+    const Grid& grid = *call_.run.state.grid;
+    const float* const(&f)[4] = grid.footprint;
+    if (!f[0]) return;
+    for (size_t i = 0; i < lookup_.points; ++i) {
+      size_t hit = i % static_cast<size_t>(grid.nu());
+      float u = along_u[i], v = along_v[i];
+      along_u[i] = u * f[0][hit] + v * f[1][hit];
+      along_v[i] = u * f[2][hit] + v * f[3][hit];
     }
   }
 
@@ -211,6 +222,11 @@ private:
   std::vector<float> swidth_, twidth_;
 };
 
+/// The map that stands for rays.
+bool asks_for_rays(const GridCall& call) {
+  return text_of(call.run, call.operands[1].planes) == "raytrace";
+}
+
 } // namespace
 
 namespace grid_ops {
@@ -219,10 +235,16 @@ void texture_lookup(const GridCall& call) {
   LookupCall(call, MapKind::kTexture).run();
 }
 void environment_lookup(const GridCall& call) {
-  LookupCall(call, MapKind::kEnvironment).run();
+  if (asks_for_rays(call))
+    trace_environment(call);
+  else
+    LookupCall(call, MapKind::kEnvironment).run();
 }
 void shadow_lookup(const GridCall& call) {
-  LookupCall(call, MapKind::kShadow).run();
+  if (asks_for_rays(call))
+    trace_shadow(call);
+  else
+    LookupCall(call, MapKind::kShadow).run();
 }
 
 // Operands: result, value stored, map, field, value before.

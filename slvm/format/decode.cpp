@@ -25,6 +25,12 @@ public:
       level = words_.back();
       words_ = words_.first(words_.size() - 1);
     }
+    uint32_t token_outputs = 0;
+    if (info.flags & kTokenOut) {
+      if (words_.empty()) return false;
+      token_outputs = words_.back();
+      words_ = words_.first(words_.size() - 1);
+    }
     const Signature& s = info.signature;
     if (s.result != Type::kVoid && !take({0, s.result, true, false, s.uniform_result, 0}, false))
       return false;
@@ -32,6 +38,8 @@ public:
       const SignatureParam& p = s.param(i);
       if (p.output && !take({0, p.type, true, p.array, p.uniform, p.elements}, p.any)) return false;
     }
+    for (; token_outputs > 0; --token_outputs)
+      if (!take({0, Type::kFloat, true, false, false, 0}, true)) return false;
     for (int i = 0; i < s.param_count; ++i) {
       const SignatureParam& p = s.param(i);
       if (!p.input) continue;

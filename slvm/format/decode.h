@@ -18,6 +18,10 @@ struct CallOperand {
   uint32_t elements = 0; ///< that the array must have; 0: any number
 };
 
+/// Of a mask level: what is differentiated came from a ray (kScattered), and neighbours' values say nothing
+/// while rays are spread by chance.
+inline constexpr uint32_t kScatteredLevel = 1u << 31;
+
 /// Splits the operand words of a call: stored operands first, then read ones. `level`: the last word of
 /// shadeops that differentiate, else 0. False: the words do not fit the shadeop's signature.
 bool decode_call(const ShadeopInfo& info, std::span<const uint32_t> words, std::vector<CallOperand>& operands,

@@ -39,6 +39,8 @@ enum ShadeopFlags : uint32_t {
   kTexture = 1u << 11,      ///< reads texture, environment or shadow maps
   kContextOut = 1u << 12,   ///< outputs keep their old value where the call finds nothing
   kMessage = 1u << 13,      ///< asks another shader for its parameter
+  kTokenOut = 1u << 14,     ///< token-value pairs may name variables that are set: results behind the others
+  kScattered = 1u << 15,    ///< differs from point to point by chance: its results have no derivatives
 };
 
 struct ShadeopInfo {

@@ -6,13 +6,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <unistd.h>
 
 namespace slvm {
 namespace {
@@ -326,34 +322,6 @@ Result<Program> read_slo(std::span<const std::byte> bytes) {
   if (const char* error = read_shader(*root, program)) return Error{fmt::format("damaged: {}", error)};
   if (std::string error = verify_program(program); !error.empty()) return Error{"damaged: " + error};
   return program;
-}
-
-Result<std::vector<std::byte>> read_file(const std::string& path) {
-  std::error_code ec;
-  auto size = std::filesystem::file_size(path, ec);
-  if (ec) return Error{fmt::format("cannot open '{}': {}", path, ec.message())};
-  if (size > kMaxSloBytes) return Error{fmt::format("'{}' is larger than {} MB", path, kMaxSloBytes >> 20)};
-  std::ifstream in(path, std::ios::binary);
-  std::vector<std::byte> bytes(size);
-  if (!in || !in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
-    return Error{fmt::format("cannot read '{}'", path)};
-  return bytes;
-}
-
-Result<bool> write_file(const std::string& path, std::span<const std::byte> bytes) {
-  std::string temporary = fmt::format("{}.tmp{}", path, ::getpid());
-  std::ofstream out(temporary, std::ios::binary);
-  if (!out) return Error{fmt::format("cannot write '{}': {}", path, std::strerror(errno))};
-  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  std::error_code ec;
-  if (out) std::filesystem::rename(temporary, path, ec);
-  if (!out || ec) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    return Error{fmt::format("cannot write '{}': {}", path, ec ? ec.message() : "the disk is full or gone")};
-  }
-  return true;
 }
 
 } // namespace slvm

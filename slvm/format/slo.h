@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slvm/format/program.h"
+#include "slvm/support/files.h"
 #include "slvm/support/result.h"
 
 #include <cstddef>
@@ -13,19 +14,12 @@ namespace slvm {
 
 /// Version of the container and of the instruction set: a file of another version is refused.
 inline constexpr uint8_t kSloVersion = 1;
-/// Larger files are refused before they are read.
-inline constexpr size_t kMaxSloBytes = size_t{256} << 20;
 
 std::vector<std::byte> write_slo(const Program& program);
 
 /// Reads and verifies: the header, the hash, the container, then the program (verify.h). The error says what
 /// is wrong, and names the foreign compilers whose files are recognised.
 Result<Program> read_slo(std::span<const std::byte> bytes);
-
-/// Reads a whole file. Errors name the path.
-Result<std::vector<std::byte>> read_file(const std::string& path);
-/// Writes to a temporary name beside `path` and renames, so that no reader ever sees half a file.
-Result<bool> write_file(const std::string& path, std::span<const std::byte> bytes);
 
 /// FNV-1a, 64 bits.
 uint64_t hash_bytes(std::span<const std::byte> bytes);

@@ -146,16 +146,18 @@ private:
     else if (info.flags & kClose)
       close_region(at, op);
     check_operands(at, op, words);
+    ray_call_before_ = false;
   }
 
   void open_region(uint32_t at, Opcode op, std::span<const uint32_t> words) {
     bool emitter = op == Opcode::k_illuminate || op == Opcode::k_solar;
     if (emitter && p_.kind != ShaderKind::kLight) fail(at, "a light cone in a shader that is no light");
     if (op == Opcode::k_illuminance && p_.kind == ShaderKind::kLight) fail(at, "a light loop in a light");
-    if (emitter || op == Opcode::k_illuminance)
+    if (is_light_statement(op))
       for (int32_t r : open_)
-        if (opcode_info(regions_[static_cast<size_t>(r)].open).flags & kGridOnly)
+        if (is_light_statement(regions_[static_cast<size_t>(r)].open))
           fail(at, "light statements do not nest");
+    if (op == Opcode::k_gather && !ray_call_before_) fail(at, "a loop over the rays of no call");
     if (emitter)
       for (Global g : {Global::kL, Global::kPs, Global::kNs})
         if (std::none_of(p_.slots.begin(), p_.slots.end(),
@@ -170,6 +172,9 @@ private:
     for (int32_t r : open_)
       depth += changes_mask(regions_[static_cast<size_t>(r)].open);
     if (depth > p_.mask_depth) fail(at, "masks nest deeper than declared");
+  }
+  static bool is_light_statement(Opcode op) {
+    return op == Opcode::k_illuminance || op == Opcode::k_illuminate || op == Opcode::k_solar;
   }
   static bool changes_mask(Opcode op) { return op != Opcode::k_strip && op != Opcode::k_uif; }
 
@@ -190,7 +195,8 @@ private:
                                                            {Opcode::k_endblock, Opcode::k_block},
                                                            {Opcode::k_endilluminance, Opcode::k_illuminance},
                                                            {Opcode::k_endilluminate, Opcode::k_illuminate},
-                                                           {Opcode::k_endsolar, Opcode::k_solar}};
+                                                           {Opcode::k_endsolar, Opcode::k_solar},
+                                                           {Opcode::k_endgather, Opcode::k_gather}};
     Opcode expected =
         std::find_if(std::begin(kPairs), std::end(kPairs), [&](auto p) { return p.first == op; })->second;
     if (open_.empty() || regions_[static_cast<size_t>(open_.back())].open != expected)
@@ -346,7 +352,8 @@ private:
     uint32_t level = 0;
     if (!decode_call(info, words, operands_, level))
       fail(at, fmt::format("operands do not fit '{}'", info.name));
-    if (level > open_.size()) fail(at, "a mask level that is not open");
+    if ((level & ~kScatteredLevel) > open_.size()) fail(at, "a mask level that is not open");
+    ray_call_before_ = info.name == "gather" || info.name == "traverse";
     bool uniform_store = false;
     for (const CallOperand& o : operands_) {
       bool is_array = operand_space(o.word) == Space::kArray;
@@ -406,7 +413,7 @@ private:
       expect(at, w[0], own->end);
     } else if (flags & kClose) {
       open_.pop_back();
-      bool rounds = op == Opcode::k_endloop || op == Opcode::k_endilluminance;
+      bool rounds = op == Opcode::k_endloop || op == Opcode::k_endilluminance || op == Opcode::k_endgather;
       if (rounds) expect(at, w[0], own->body);
       if (op != Opcode::k_endstrip) expect(at, w[rounds ? 1 : 0], part_end(own->parent, at));
     } else if (op == Opcode::k_while || op == Opcode::k_uwhile) {
@@ -434,6 +441,7 @@ private:
   const Program& p_;
   uint32_t begin_, section_end_;
   uint16_t last_opcode_ = 0;
+  bool ray_call_before_ = false; // the instruction before is a call of gather or traverse
   std::vector<Region> regions_;
   std::vector<int32_t> open_;
   std::map<uint32_t, int32_t> at_region_;

@@ -8,9 +8,9 @@ namespace slvm::ir {
 
 std::string_view op_name(Op op) {
   constexpr std::string_view kNames[kOpCount] = {
-      "constant",    "slot",       "store",      "call",  "retype", "array",
-      "arrayclear",  "arrayload",  "arraystore", "if",    "loop",   "block",
-      "illuminance", "illuminate", "solar",      "yield", "break",  "continue"};
+      "constant",  "slot",       "store", "call",     "retype", "array",       "arrayclear",
+      "arrayload", "arraystore", "if",    "loop",     "block",  "illuminance", "illuminate",
+      "solar",     "yield",      "break", "continue", "gather"};
   return kNames[static_cast<int>(op)];
 }
 
@@ -28,7 +28,7 @@ Effect region_effect(const Module& m, const Region& region, uint32_t depth) {
       worst = std::max(worst, effect_of(m, inst));
       continue;
     }
-    if (inst.op == Op::kIlluminance) worst = std::max(worst, Effect::kReads);
+    if (inst.op == Op::kIlluminance || inst.op == Op::kGather) worst = std::max(worst, Effect::kReads);
     if (inst.op == Op::kIlluminate || inst.op == Op::kSolar)
       return Effect::kWrites; // what lights emit counts
     for (const Region& nested : inst.regions)
@@ -63,8 +63,10 @@ Effect effect_of(const Module& m, const Inst& inst) {
   case Op::kIf:
   case Op::kLoop:
   case Op::kBlock:
-  case Op::kIlluminance: {
-    Effect worst = inst.op == Op::kIlluminance ? Effect::kReads : Effect::kNone;
+  case Op::kIlluminance:
+  case Op::kGather: {
+    const bool asks = inst.op == Op::kIlluminance || inst.op == Op::kGather;
+    Effect worst = asks ? Effect::kReads : Effect::kNone;
     for (const Region& r : inst.regions)
       worst = std::max(worst, region_effect(m, r, is_loop(inst.op)));
     return worst;

@@ -19,13 +19,14 @@
 //     body ends in a continue or break, a block's in a break
 //   }
 //
-// break and continue name their loop by how many enclosing loops, blocks and illuminance loops lie between.
-// Variables of the language are gone: arrays alone are memory, loaded and stored element by element.
+// break and continue name their loop by how many enclosing loops, blocks, illuminance and gather loops lie
+// between. Variables of the language are gone: arrays alone are memory, loaded and stored element by element.
 #pragma once
 
 #include "slvm/format/program.h"
 #include "slvm/support/source.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -58,19 +59,24 @@ enum class Op : uint8_t {
   kYield,       ///< args: results of the enclosing if, illuminate or solar
   kBreak,       ///< index: level; args: results of that loop
   kContinue,    ///< index: level; args: carried values of that loop
+  kGather,      ///< index: the row of gather or traverse; args: what that row reads, then carried values. One
+                ///< region, run for each ray; its calls of gatherhit and gathered tell of the ray
 };
-inline constexpr int kOpCount = 18;
+inline constexpr int kOpCount = 19;
 std::string_view op_name(Op);
-/// How many args stand before carried values: 4 for illuminance, 3 illuminate, 2 solar, else 0.
-constexpr uint32_t fixed_args(Op op) {
-  return op == Op::kIlluminance ? 4 : op == Op::kIlluminate ? 3 : op == Op::kSolar ? 2 : 0;
+/// Their index is a row of shadeops.def.
+constexpr bool names_shadeop(Op op) {
+  return op == Op::kCall || op == Op::kGather;
+}
+constexpr bool is_light_statement(Op op) {
+  return op == Op::kIlluminance || op == Op::kIlluminate || op == Op::kSolar;
 }
 constexpr bool is_terminator(Op op) {
   return op == Op::kYield || op == Op::kBreak || op == Op::kContinue;
 }
 /// Loops in the sense of break and continue levels.
 constexpr bool is_loop(Op op) {
-  return op == Op::kLoop || op == Op::kBlock || op == Op::kIlluminance;
+  return op == Op::kLoop || op == Op::kBlock || op == Op::kIlluminance || op == Op::kGather;
 }
 
 struct Region {
@@ -85,6 +91,19 @@ struct Inst {
   std::vector<ValueId> args, results;
   std::vector<Region> regions;
 };
+
+/// How many args stand before carried values: 4 for illuminance, 3 illuminate, 2 solar, what its row reads
+/// for gather, else 0.
+inline uint32_t fixed_args(const Inst& inst) {
+  switch (inst.op) {
+  case Op::kIlluminance: return 4;
+  case Op::kIlluminate: return 3;
+  case Op::kSolar: return 2;
+  case Op::kGather:
+    return static_cast<uint32_t>(inst.args.size() - std::min(inst.args.size(), inst.results.size()));
+  default: return 0;
+  }
+}
 
 struct ValueInfo {
   Type type = Type::kFloat;

@@ -56,6 +56,9 @@ private:
     }
     case Op::kSlot:
     case Op::kStore: return " " + m_.slots[inst.index].name;
+    case Op::kGather:
+      // Its own name says which row it is, except for traverse.
+      return m_.called(inst).name == "traverse" ? " traverse" : "";
     case Op::kCall: return fmt::format(" {}", m_.called(inst).name);
     case Op::kArray:
     case Op::kArrayClear:

@@ -5,10 +5,12 @@
 // Merges become registers: one for each result of an if, one shared by parameter and result of a loop,
 // written by masked copies where the branches and rounds end; unmasked ones where no lane that is off keeps a
 // value that somebody reads.
+#include "slvm/format/decode.h"
 #include "slvm/ir/emit_internal.h"
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 #include <utility>
 
 namespace slvm::ir {
@@ -256,7 +258,8 @@ private:
     switch (inst.op) {
     case Op::kIlluminance:
     case Op::kIlluminate:
-    case Op::kSolar: return false;
+    case Op::kSolar:
+    case Op::kGather: return false;
     case Op::kBreak:
     case Op::kContinue: return inst.index < depth;
     case Op::kCall: return m_.called(inst).kind == ShadeopKind::kKernel;
@@ -374,6 +377,7 @@ private:
     case Op::kIlluminance: emit_illuminance(id); break;
     case Op::kIlluminate:
     case Op::kSolar: emit_emitter(id); break;
+    case Op::kGather: emit_gather(id); break;
     case Op::kBreak:
     case Op::kContinue: emit_exit(inst); break;
     case Op::kYield: emit_yield(inst); break;
@@ -401,26 +405,33 @@ private:
              1, 1));
   }
 
+  /// The mask that tells the lanes where both hold a value.
+  static uint32_t common_level(uint32_t a, uint32_t b) {
+    return std::max(a & ~kScatteredLevel, b & ~kScatteredLevel) | ((a | b) & kScatteredLevel);
+  }
+
   void emit_call(const Inst& inst) {
     const ShadeopInfo& info = m_.called(inst);
+    const std::span<const ValueId> args(inst.args.data(),
+                                        inst.op == Op::kGather ? fixed_args(inst) : inst.args.size());
     uint32_t level = 0;
-    for (ValueId a : inst.args)
-      level = std::max(level, level_[a]);
+    for (ValueId a : args)
+      level = common_level(level, level_[a]);
     std::vector<LowOperand> reads, operands;
     const Signature& signature = info.signature;
     size_t positional = 0; // arguments before token-value pairs
     for (int i = 0; i < signature.param_count; ++i)
       positional += signature.param(i).input;
     int param = 0;
-    for (size_t i = 0; i < inst.args.size(); ++i, ++param) {
+    for (size_t i = 0; i < args.size(); ++i, ++param) {
       while (param < signature.param_count && !signature.param(param).input)
         ++param;
       bool is_token_value = !signature.variadic() && i >= positional && (i - positional) % 2 == 1;
       bool is_positional = signature.variadic() || i < positional;
       if (is_token_value || (is_positional && signature.param(param).any))
-        reads.push_back(word(static_cast<uint32_t>(m_.type(inst.args[i]))));
+        reads.push_back(word(static_cast<uint32_t>(m_.type(args[i]))));
       bool must_be_uniform = is_positional && signature.param(param).uniform;
-      reads.push_back(must_be_uniform ? use_uniform(inst.args[i]) : use(inst.args[i]));
+      reads.push_back(must_be_uniform ? use_uniform(args[i]) : use(args[i]));
     }
     size_t result = 0;
     auto store = [&](bool any) {
@@ -430,16 +441,22 @@ private:
       operands.push_back(m_.values[r].array >= 0
                              ? word(make_operand(Space::kArray, static_cast<uint32_t>(m_.values[r].array)))
                              : define(r));
-      level_[r] = info.kind == ShadeopKind::kKernel || info.flags & kDerivative ? level : depth();
+      const bool everywhere = info.flags & kDerivative && !(info.flags & (kTexture | kRays));
+      level_[r] = info.kind == ShadeopKind::kKernel || everywhere ? level : depth();
+      if (info.flags & kScattered) level_[r] |= kScatteredLevel;
     };
     if (signature.result != Type::kVoid) store(false);
     for (int i = 0; i < signature.param_count; ++i)
       if (signature.param(i).output) store(signature.param(i).any);
+    uint32_t token_outputs = 0;
+    for (; info.flags & kTokenOut && result < inst.results.size(); ++token_outputs)
+      store(true);
     auto stores = static_cast<uint32_t>(operands.size());
     operands.insert(operands.end(), reads.begin(), reads.end());
+    if (info.flags & kTokenOut) operands.push_back(word(token_outputs));
     if (info.flags & kDerivative) {
       operands.push_back(word(level));
-      keep_strips_below(level);
+      keep_strips_below(level & ~kScatteredLevel);
     }
     add(make(import(inst.index), std::move(operands), 0, stores));
   }
@@ -529,6 +546,8 @@ private:
     bool varying = m_.varying(inst.args[0]);
     LowOperand condition = use(inst.args[0]);
     frames_.push_back({&inst, define_results(inst)});
+    for (ValueId r : inst.results)
+      level_[r] |= level_[inst.args[0]] & kScatteredLevel;
     uint32_t begin = add(varying ? Opcode::k_if : Opcode::k_uif, {condition, target(0)});
     if (varying) open_mask();
     ends_.push_back({});
@@ -554,7 +573,7 @@ private:
 
   std::vector<LowOperand> begin_carried(const Inst& inst) {
     const std::vector<ValueId>& params = inst.regions[0].params;
-    uint32_t fixed = fixed_args(inst.op);
+    uint32_t fixed = fixed_args(inst);
     std::vector<LowOperand> regs = define_results(inst);
     std::vector<ValueId> initial(inst.args.begin() + fixed, inst.args.end());
     if (!params.empty()) merge(regs, initial, inst.results, false);
@@ -626,9 +645,42 @@ private:
     frames_.pop_back();
   }
 
+  /// Whether lanes can leave the loop that owns `region` before its last round.
+  bool lanes_leave(const Region& region, uint32_t depth = 0) const {
+    for (InstId id : region.body) {
+      const Inst& inst = m_.insts[id];
+      if (inst.op == Op::kBreak && inst.index >= depth) return true;
+      if (inst.op == Op::kContinue && inst.index > depth) return true;
+      for (const Region& nested : inst.regions)
+        if (lanes_leave(nested, depth + is_loop(inst.op))) return true;
+    }
+    return false;
+  }
+
+  // The call says what rays there are, the loop runs for each.
+  void emit_gather(InstId id) {
+    const Inst& inst = m_.insts[id];
+    frames_.push_back({&inst, begin_carried(inst)});
+    emit_call(inst);
+    uint32_t begin = add(Opcode::k_gather, {target(0), word(lanes_leave(inst.regions[0]))});
+    open_mask();
+    for (ValueId p : inst.regions[0].params)
+      level_[p] = depth();
+    ends_.push_back({});
+    emit_region(inst.regions[0]);
+    where_ = inst.where;
+    uint32_t end = add(Opcode::k_endgather, {target(begin + 1), target(0)});
+    close(end);
+    out_.insts[begin].operands[0] = target(end);
+    jump_to_end(end, 1);
+    out_.loops.emplace_back(begin, end);
+    close_mask();
+    frames_.pop_back();
+  }
+
   void emit_emitter(InstId id) {
     const Inst& inst = m_.insts[id];
-    uint32_t fixed_count = fixed_args(inst.op);
+    uint32_t fixed_count = fixed_args(inst);
     std::vector<LowOperand> regs = define_results(inst);
     std::vector<ValueId> otherwise(inst.args.begin() + fixed_count, inst.args.end());
     merge(regs, otherwise, inst.results, false);
@@ -678,6 +730,8 @@ private:
     }
     const Inst& owner = *frames_.back().inst;
     bool masked = owner.op != Op::kIf || m_.varying(owner.args[0]);
+    for (size_t i = 0; i < inst.args.size(); ++i)
+      level_[owner.results[i]] |= level_[inst.args[i]] & kScatteredLevel;
     merge(frames_.back().merge, inst.args, owner.results, masked);
   }
 

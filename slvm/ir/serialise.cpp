@@ -197,7 +197,8 @@ private:
   void imports() {
     if constexpr (!A::kReads)
       for (const Inst& inst : m_.insts)
-        if (inst.op == Op::kCall && std::find(imports_.begin(), imports_.end(), inst.index) == imports_.end())
+        if (names_shadeop(inst.op) &&
+            std::find(imports_.begin(), imports_.end(), inst.index) == imports_.end())
           imports_.push_back(inst.index);
     a_.list(imports_, [&](uint32_t& id) {
       std::string name, signature;
@@ -263,12 +264,12 @@ private:
   void subject(Inst& inst) {
     uint32_t x = inst.index;
     if constexpr (!A::kReads)
-      if (inst.op == Op::kCall)
+      if (names_shadeop(inst.op))
         x = static_cast<uint32_t>(std::find(imports_.begin(), imports_.end(), x) - imports_.begin());
     a_.number(x);
     if constexpr (A::kReads) {
-      if (inst.op == Op::kCall && x >= imports_.size()) return a_.fail("a call of no import");
-      inst.index = inst.op == Op::kCall ? imports_[x] : x;
+      if (names_shadeop(inst.op) && x >= imports_.size()) return a_.fail("a call of no import");
+      inst.index = names_shadeop(inst.op) ? imports_[x] : x;
     }
   }
 

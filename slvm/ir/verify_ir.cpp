@@ -166,7 +166,7 @@ private:
     require(inst.where.file < std::max<size_t>(m_.files.size(), 1), "a position in no file");
     for (ValueId v : inst.args) {
       require(v < m_.values.size() && visible_[v], "a value that is not visible here");
-      require(m_.values[v].array < 0 || inst.op == Op::kCall, "an array where a value must be");
+      require(m_.values[v].array < 0 || names_shadeop(inst.op), "an array where a value must be");
     }
     InstId id = at_;
     check(inst);
@@ -212,6 +212,7 @@ private:
     case Op::kIlluminance:
     case Op::kIlluminate:
     case Op::kSolar: return check_lights(inst);
+    case Op::kGather: return check_gather(inst);
     case Op::kYield: return check_yield(inst);
     case Op::kBreak:
     case Op::kContinue: return check_exit(inst);
@@ -263,13 +264,10 @@ private:
 
   void check_call(const Inst& inst) const {
     require(inst.regions.empty(), "wrong number of arguments, results or regions");
-    require(m_.plugins.knows(inst.index), "a call of no shadeop");
-    const ShadeopInfo& info = m_.called(inst);
-    require(info.kind != ShadeopKind::kRsl, "a call of a function that has no code of its own");
+    const ShadeopInfo& info = row_of(inst);
     const Signature& s = info.signature;
     auto does_not_fit = [&] { fail(fmt::format("operands do not fit '{}'", info.name)); };
-
-    size_t arg = 0, result = 0;
+    size_t result = 0;
     if (s.result != Type::kVoid) {
       if (inst.results.empty() || is_array(inst.results[0])) does_not_fit();
       value_is(inst.results[result++], s.result);
@@ -282,20 +280,40 @@ private:
         require_writable(static_cast<uint32_t>(m_.values[inst.results[result]].array));
       ++result;
     }
+    if (info.flags & kTokenOut) // one for each pair, at most
+      for (size_t pairs = inst.args.size() / 2; pairs > 0 && result < inst.results.size(); --pairs, ++result)
+        if (is_array(inst.results[result])) does_not_fit();
+    if (result != inst.results.size()) does_not_fit();
+    check_read(inst, inst.args.size());
+  }
+
+  const ShadeopInfo& row_of(const Inst& inst) const {
+    require(m_.plugins.knows(inst.index), "a call of no shadeop");
+    const ShadeopInfo& info = m_.called(inst);
+    require(info.kind != ShadeopKind::kRsl, "a call of a function that has no code of its own");
+    return info;
+  }
+
+  /// The first `count` arguments are what the row reads. Pairs of gather may name arrays that are set.
+  void check_read(const Inst& inst, size_t count) const {
+    const ShadeopInfo& info = row_of(inst);
+    const Signature& s = info.signature;
+    auto does_not_fit = [&] { fail(fmt::format("operands do not fit '{}'", info.name)); };
+    size_t arg = 0;
     for (int i = 0; i < s.param_count; ++i) {
       const SignatureParam& p = s.param(i);
       if (!p.input) continue;
       do {
-        if (arg == inst.args.size() || !fits(inst.args[arg++], p)) does_not_fit();
-      } while (p.variadic && arg < inst.args.size());
+        if (arg == count || !fits(inst.args[arg++], p)) does_not_fit();
+      } while (p.variadic && arg < count);
     }
-    while (!s.token_set.empty() && arg + 1 < inst.args.size()) {
+    while (!s.token_set.empty() && arg + 1 < count) {
       if (m_.type(inst.args[arg]) != Type::kString || is_array(inst.args[arg]) ||
-          is_array(inst.args[arg + 1]))
+          (is_array(inst.args[arg + 1]) && inst.op != Op::kGather))
         does_not_fit();
       arg += 2;
     }
-    if (arg != inst.args.size() || result != inst.results.size()) does_not_fit();
+    if (arg != count) does_not_fit();
   }
   bool is_array(ValueId v) const { return v < m_.values.size() && m_.values[v].array >= 0; }
   bool fits(ValueId v, const SignatureParam& p) const {
@@ -322,8 +340,10 @@ private:
   void carried(const Inst& inst) {
     require(inst.regions.size() == 1, "wrong number of arguments, results or regions");
     const Region& body = inst.regions[0];
-    uint32_t fixed = fixed_args(inst.op);
+    uint32_t fixed = fixed_args(inst);
     require(inst.args.size() >= fixed, "wrong number of arguments, results or regions");
+    for (size_t i = fixed; i < inst.args.size(); ++i)
+      require(!is_array(inst.args[i]), "an array where a value must be");
     same_types(std::span(inst.args).subspan(fixed), inst.results);
     same_types(inst.results, body.params);
     for (ValueId v : inst.results)
@@ -345,11 +365,11 @@ private:
     require(is_body_ && loop != (m_.kind == ShaderKind::kLight),
             "a light statement in the wrong kind of shader");
     for (const Inst* owner : owners_)
-      require(!owner || !fixed_args(owner->op), "light statements do not nest");
+      require(!owner || !is_light_statement(owner->op), "light statements do not nest");
     static constexpr Type kFixed[3][4] = {{Type::kString, Type::kPoint, Type::kVector, Type::kFloat},
                                           {Type::kPoint, Type::kVector, Type::kFloat},
                                           {Type::kVector, Type::kFloat}};
-    uint32_t fixed = fixed_args(inst.op);
+    uint32_t fixed = fixed_args(inst);
     require(inst.args.size() >= fixed && inst.regions.size() == 1,
             "wrong number of arguments, results or regions");
     for (uint32_t i = 0; i < fixed; ++i)
@@ -361,6 +381,15 @@ private:
     same_types(std::span(inst.args).subspan(fixed), inst.results);
     require(inst.regions[0].params.empty(), "a light cone with parameters");
     region(inst.regions[0], &inst);
+  }
+
+  void check_gather(const Inst& inst) {
+    const ShadeopInfo& info = row_of(inst);
+    require(is_body_ && (info.name == "gather" || info.name == "traverse"),
+            "a loop over the rays of no call");
+    require(inst.args.size() >= inst.results.size(), "wrong number of arguments, results or regions");
+    check_read(inst, fixed_args(inst));
+    carried(inst);
   }
 
   bool has_slot(Global g) const {

@@ -55,17 +55,31 @@ size_t SharedLibrary::size_of(const void* symbol) const {
   return info.dli_saddr == symbol ? static_cast<const ElfW(Sym)*>(entry)->st_size : 0;
 }
 
+namespace {
+
+/// Whether a path lies in the folder or farther down; links of both have been followed.
+bool lies_in(const fs::path& file, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+} // namespace
+
 std::string find_library(std::string_view name, std::span<const std::string> folders) {
-  const fs::path relative = fs::path(name).lexically_normal();
-  if (name.empty() || relative.is_absolute() || *relative.begin() == "..") return "";
-  const fs::path in_front = relative.parent_path();
-  const std::string file = relative.filename().string();
-  for (const std::string& folder : folders)
-    for (const std::string& form : {file, file + ".so", "lib" + file + ".so"}) {
-      std::error_code error;
-      const fs::path candidate = fs::path(folder) / in_front / form;
-      if (fs::is_regular_file(candidate, error)) return candidate.lexically_normal().string();
-    }
+  std::vector<fs::path> names{fs::path(name)};
+  if (names[0].is_absolute()) names.push_back(names[0].filename());
+  for (const fs::path& wanted : names) {
+    const std::string file = wanted.filename().string();
+    if (file.empty()) continue;
+    for (const std::string& given : folders)
+      for (const std::string& form : {file, file + ".so", "lib" + file + ".so"}) {
+        std::error_code error;
+        const fs::path folder = fs::canonical(given.empty() ? "." : given, error);
+        if (error) continue;
+        const fs::path candidate = fs::canonical(folder / wanted.parent_path() / form, error);
+        if (!error && fs::is_regular_file(candidate, error) && lies_in(candidate, folder))
+          return candidate.string();
+      }
+  }
   return "";
 }
 

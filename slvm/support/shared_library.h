@@ -35,8 +35,9 @@ private:
 };
 
 /// The file of the plug-in `name` in the first of the folders that has it: the name as it stands, with ".so",
-/// or as lib<name>.so. Folders in `name` count only below those given: neither absolute names nor ".." lead
-/// elsewhere. "" when there is none.
+/// or as lib<name>.so. Neither "..", nor links, nor absolute names lead out of the folders; of an absolute
+/// name, as scenes from other machines have, the last part counts where it is in none of them. "" when there
+/// is none.
 std::string find_library(std::string_view name, std::span<const std::string> folders);
 /// All shared libraries in the folders, folder by folder, by name.
 std::vector<std::string> list_libraries(std::span<const std::string> folders);

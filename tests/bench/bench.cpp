@@ -1,12 +1,14 @@
 // What running shaders costs: each benchmark shader on a grid by the virtual machine and by a hand-written
 // loop (by_hand.cpp), as nanoseconds per point and their ratio, taken in one run; first their results are
-// compared. Also compiling and binding. Usage: anemone_bench [--benchmark_...]
+// compared. Shaders that shoot rays stand beside tracing the same rays without the machine (rays.cpp). Also
+// compiling and binding. Usage: anemone_bench [--benchmark_...]
 #include "slc/compiler.h"
 #include "slvm/evaluator.h"
 #include "slvm/format/slo.h"
 #include "slvm/kernels/table.h"
 #include "slvm/machine.h"
 #include "tests/bench/by_hand.h"
+#include "tests/bench/rays.h"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -20,12 +22,14 @@
 
 namespace {
 
-constexpr int kSide = 32; // points a side: a grid of a typical size
+constexpr int kSide = 32;   // points a side: a grid of a typical size
+constexpr float kRays = 64; // a point, in the benchmarks of rays
 
-/// A scene of lights.
+/// A scene of lights and of balls that rays hit.
 class LitScene : public slvm::RendererServices {
 public:
   std::vector<const slvm::Instance*> list;
+  bench::BallScene balls;
 
   bool space_to_current(const slvm::ShadingState&, std::string_view, slvm::Matrix4&) override {
     return false;
@@ -38,6 +42,7 @@ public:
   bool option(const slvm::ShadingState&, std::string_view, slvm::Value&) override { return false; }
   bool renderer_info(const slvm::ShadingState&, std::string_view, slvm::Value&) override { return false; }
   void print(const slvm::ShadingState&, std::string_view) override {}
+  slvm::RayServices* rays() override { return &balls; }
 };
 
 [[noreturn]] void fail(const std::string& text) {
@@ -146,6 +151,7 @@ struct Case {
   bool lit = false;
   std::function<void(Setup&, const bench::Points&)> by_hand;
   std::shared_ptr<slvm::Instance> surface;
+  bool shoots = false; ///< by hand the same rays are traced without the virtual machine
 };
 
 void shade(Setup& setup, const Case& c) {
@@ -154,9 +160,17 @@ void shade(Setup& setup, const Case& c) {
   setup.context.shade(set, setup.grid);
 }
 
+/// Runs the shader; the scene keeps its rays.
+void shade_keeping_rays(Setup& setup, const Case& c) {
+  setup.scene.balls.kept.clear();
+  setup.scene.balls.keeps = true;
+  shade(setup, c);
+  setup.scene.balls.keeps = false;
+}
+
 /// Both versions once; the greatest difference must be that of rounding.
 void check(Setup& setup, const Case& c) {
-  shade(setup, c);
+  shade_keeping_rays(setup, c);
   bench::Points points = setup.points();
   c.by_hand(setup, points);
   const slvm::Planes& ci = setup.grid.variable(slvm::Global::kCi);
@@ -211,6 +225,7 @@ void register_benchmarks(Setup& setup, std::vector<Case>& cases) {
     });
     benchmark::RegisterBenchmark(("by_hand/" + c.name).c_str(), [&setup, &c](benchmark::State& state) {
       bench::Points points = setup.points();
+      if (c.shoots) shade_keeping_rays(setup, c);
       for (auto _ : state) {
         c.by_hand(setup, points);
         benchmark::ClobberMemory();
@@ -249,7 +264,15 @@ int main(int argc, char** argv) {
       {"marble", own + "marble.sl", false, [](Setup&, const bench::Points& p) { bench::marble_by_hand(p); },
        nullptr},
       {"divergent", own + "divergent.sl", false,
-       [](Setup&, const bench::Points& p) { bench::divergent_by_hand(p); }, nullptr}};
+       [](Setup&, const bench::Points& p) { bench::divergent_by_hand(p); }, nullptr},
+      {"rays: hit?", own + "rays_occlusion.sl", false,
+       [](Setup& s, const bench::Points& p) {
+         bench::occlusion_by_hand(s.scene.balls, kRays, p.count, p.ci);
+       },
+       nullptr, true},
+      {"rays: Ci", own + "rays_bleeding.sl", false,
+       [](Setup& s, const bench::Points& p) { bench::bleeding_by_hand(s.scene.balls, kRays, p.count, p.ci); },
+       nullptr, true}};
   for (Case& c : cases) {
     c.surface = setup.instance(c.path);
     setup.scene.list.clear();

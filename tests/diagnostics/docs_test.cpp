@@ -95,17 +95,27 @@ TEST(Documents, have_programs_that_compile) {
   EXPECT_GE(checked, 50u);
 }
 
-TEST(Documents, show_the_program_that_embeds_us) {
-  std::string page = slc::read_file(DOCS_DIR "/embedding.md").value_or("");
-  std::string program = slc::read_file(EXTERNAL_DIR "/shade_grid.cpp").value_or("none");
-  EXPECT_NE(page.find("```cpp\n" + program + "```"), std::string::npos)
-      << "copy tests/external/shade_grid.cpp";
-  std::string lists = slc::read_file(EXTERNAL_DIR "/CMakeLists.txt").value_or("none");
+/// A page with a program and how it is built, both as they are in a folder of tests.
+void expect_shown(const std::string& page_name, const std::string& folder, const std::string& program_name,
+                  const std::string& language) {
+  std::string page = slc::read_file(DOCS_DIR "/" + page_name).value_or("");
+  std::string program = slc::read_file(folder + "/" + program_name).value_or("none");
+  EXPECT_NE(page.find("```" + language + "\n" + program + "```"), std::string::npos)
+      << "copy " << folder << "/" << program_name;
+  std::string lists = slc::read_file(folder + "/CMakeLists.txt").value_or("none");
   size_t begin = page.find("```cmake\n");
   ASSERT_NE(begin, std::string::npos);
   begin = page.find('\n', begin) + 1;
   std::string shown = page.substr(begin, page.find("```", begin) - begin);
-  EXPECT_NE(lists.find(shown), std::string::npos) << "copy from tests/external/CMakeLists.txt";
+  EXPECT_NE(lists.find(shown), std::string::npos) << "copy from " << folder << "/CMakeLists.txt";
+}
+
+TEST(Documents, show_the_program_that_embeds_us) {
+  expect_shown("embedding.md", TESTS_DIR "/external", "shade_grid.cpp", "cpp");
+}
+
+TEST(Documents, show_the_program_in_c) {
+  expect_shown("c-interface.md", TESTS_DIR "/c_interface", "draw.c", "c");
 }
 
 } // namespace

@@ -14,8 +14,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-BlobbyField field(int leaves, std::vector<int> code, std::vector<float> floats) {
-  auto f = BlobbyField::make(leaves, code, floats);
+BlobbyField field(std::vector<int> code, std::vector<float> floats) {
+  auto f = BlobbyField::make(code, floats);
   EXPECT_TRUE(bool(f)) << (f ? "" : f.error());
   return f ? *f : BlobbyField();
 }
@@ -34,7 +34,7 @@ TEST(Blobby, leaves_and_operators) {
   auto value = [&](std::vector<int> operation) {
     std::vector<int> code{1001, 0, 1001, 16, 1000, 32};
     code.insert(code.end(), operation.begin(), operation.end());
-    return field(3, code, kNumbers).at(p);
+    return field(code, kNumbers).at(p);
   };
   EXPECT_NEAR(value({0, 3, 0, 1, 2}), a + b + c, 1e-12);
   EXPECT_NEAR(value({1, 2, 0, 1}), a * b, 1e-12);
@@ -100,6 +100,101 @@ TEST(Blobby, variables_are_mixed_by_the_leaves) {
   }
 }
 
+TEST(Blobby, operators_hand_values_on) {
+  glm::dvec3 p(0.3, 0.1, 0);
+  double a = sphere(std::hypot(0.3, 0.1)), b = sphere(std::hypot(0.7, 0.1));
+  auto shares = [&](std::vector<int> operation) {
+    std::vector<int> code{1001, 0, 1001, 16, 1000, 32};
+    code.insert(code.end(), operation.begin(), operation.end());
+    std::vector<double> out(3);
+    field(code, kNumbers).shares(p, out);
+    return out;
+  };
+  using Shares = std::vector<double>;
+  auto near = [](double x, double y, double z) {
+    return ::testing::Pointwise(::testing::DoubleNear(1e-12), Shares{x, y, z});
+  };
+  EXPECT_THAT(shares({0, 3, 0, 1, 2}), near(a / (a + b), b / (a + b), 0)); // the constant has no value
+  EXPECT_THAT(shares({1, 2, 0, 1}), near(a / (a + b), b / (a + b), 0));
+  EXPECT_THAT(shares({2, 2, 0, 1}), near(1, 0, 0));
+  EXPECT_THAT(shares({3, 2, 0, 1}), near(0, 1, 0));
+  EXPECT_THAT(shares({4, 1, 0}), near(0, 1, 0));
+  EXPECT_THAT(shares({5, 0, 1}), near(1, 0, 0));
+  EXPECT_THAT(shares({7, 1}), near(0, 1, 0));
+  // max(a + b, b): the sum decides.
+  EXPECT_THAT(shares({0, 2, 0, 1, 2, 2, 1, 3}), near(a / (a + b), b / (a + b), 0));
+}
+
+TEST(Blobby, the_ground_repels) {
+  GroundProfile profile{2, 0.1f, 0.5f, 0.3f};
+  EXPECT_EQ(profile.at(2), 0);
+  EXPECT_EQ(profile.at(kInfinity), 0);
+  // The bulge's peak and end by themselves, and close to the ground -B / z.
+  auto ease = [](double e) { return e * e * (3 - 2 * e); };
+  EXPECT_NEAR(profile.at(0.5), (0.3 - 0.1 / 0.5) * (1 - ease(0.25)), 1e-6);
+  EXPECT_NEAR(profile.at(1.2), -0.1 / 1.2 * (1 - ease(0.6)), 1e-6);
+  EXPECT_NEAR(profile.at(1e-3), -100, 0.1);
+  EXPECT_NEAR(profile.at(-5), -1e5, 1);
+}
+
+/// A camera at z = -9 that looks along z at 4 x 4 units in parallel; depths rise by 0.5 from one of its four
+/// pixels in a row to the next, and the last column is empty.
+BlobbyGround slope() {
+  DepthImage image;
+  image.width = image.height = 4;
+  for (int k = 0; k < 16; ++k)
+    image.depth.push_back(k % 4 == 3 ? 1e30f : 10 + 0.5f * static_cast<float>(k % 4));
+  image.world_to_camera = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 9, 1};
+  image.world_to_screen = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.01f, 0, 0, 0, 0.09f, 1};
+  Matrix4 object_to_world;
+  object_to_world(3, 0) = 1; // the Blobby stands at x = 1
+  return BlobbyGround(std::move(image), object_to_world);
+}
+
+TEST(Blobby, heights_above_a_depth_image) {
+  BlobbyGround ground = slope();
+  // Pixel centres are at world x = -1.5, -0.5, 0.5; their ground at world z = 1, 1.5, 2.
+  EXPECT_NEAR(ground.height({-2.5, 0, 0}), 1, 1e-6);
+  EXPECT_NEAR(ground.height({-2, 0.3, 0}), 1.25, 1e-6);
+  EXPECT_NEAR(ground.height({-1.5, -1, 1}), 0.5, 1e-6);
+  EXPECT_NEAR(ground.height({-2.5, 0, 3}), -2, 1e-6);
+  EXPECT_NEAR(ground.height({-0.4, 0, 0}), 2, 1e-6); // half the pixels there are empty
+  EXPECT_EQ(ground.height({0.4, 0, 0}), kInfinity);  // most are
+  EXPECT_EQ(ground.height({-3.5, 0, 0}), kInfinity); // beside the image
+}
+
+TEST(Blobby, a_ground_keeps_the_surface_off) {
+  // A ball of radius 2 (half of it seen) sinks into the slope, which repels within 0.8 of it.
+  auto ground = std::make_shared<BlobbyGround>(slope());
+  std::vector<float> numbers{4, 0, 0, 0, 0, 4, 0, 0, 0, 0, 4, 0, -2, 0, 0.5f, 1, 0.8f, 0.01f, 0.3f, 0.2f};
+  auto made = BlobbyField::make(std::vector<int>{1001, 0, 1003, 7, 16, 0, 2, 0, 1}, numbers, [&](int string) {
+    EXPECT_EQ(string, 7);
+    return ground;
+  });
+  ASSERT_TRUE(made);
+  Scene s;
+  add_blobby(*made, {}, std::make_shared<PrimitiveState>(), s.primitives);
+  ASSERT_FALSE(s.primitives.empty());
+  int near = 0, free = 0;
+  visit(s, [&](Vec3 P, Vec3) {
+    double height = ground->height(glm::dvec3(P)), r = glm::distance(P, Vec3(-2, 0, 0.5f)) / 4;
+    if (P.x < -2.8f || P.x > -0.5f || std::abs(P.y) > 1.8f)
+      return; // where the depths end the ground does, too
+    EXPECT_GT(height, 0);
+    double field = sphere(r) + GroundProfile{0.8f, 0.01f, 0.3f, 0.2f}.at(height);
+    if (height > 0.05 && height < 0.8) {
+      EXPECT_NEAR(field, BlobbyField::kThreshold, 0.01);
+    }
+    if (height > 0.81) {
+      EXPECT_NEAR(r, 0.5, 1e-4);
+    }
+    near += height < 0.1;
+    free += height > 0.81;
+  });
+  EXPECT_GT(near, 100);
+  EXPECT_GT(free, 100);
+}
+
 TEST(Blobby, the_picture_is_a_disc) {
   Rendered r = render_text(
       "Format 100 100 1 ScreenWindow -1 1 -1 1 PixelSamples 4 4 WorldBegin Translate 0 0 3 Sides 1 "
@@ -125,9 +220,16 @@ TEST(Blobby, messages) {
   EXPECT_THAT(message("1 [1000 0 6 1] [1]"),
               HasSubstr("operator 6 uses result 1, which does not precede it"));
   EXPECT_THAT(message("1 [1000 0 12] [1]"), HasSubstr("unknown code 12"));
-  EXPECT_THAT(message("2 [1000 0] [1]"), HasSubstr("'nleaf' is 2, but the code has 1 leaves"));
+  EXPECT_THAT(message("2 [1000 0] [1]"),
+              HasSubstr("warning: Blobby: 'nleaf' is 2, but the code has 1 leaves, and that counts"));
+  EXPECT_THAT(message("1 [1004 0 0 0 0 0] [1]"),
+              HasSubstr("a leaf of code 1004 is a plug-in, and these are not supported"));
+  EXPECT_THAT(message("1 [1003 3 0] [1 1 1 1]"),
+              HasSubstr("a ground has the file 3 of 1; the ground has no effect"));
   EXPECT_THAT(message("1 [1003 0 0] [1 1 1 1]"),
-              HasSubstr("warning: Blobby: planes that repel (code 1003) have no effect"));
+              HasSubstr("\"\": no such file in the texture search path; the ground has no effect"));
+  EXPECT_THAT(message("1 [1003 0 0] [0 1 1 1]"),
+              HasSubstr("the heights of a ground are 0 and 1; they must be positive"));
 }
 
 } // namespace

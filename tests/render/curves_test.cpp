@@ -67,6 +67,20 @@ TEST(Curves, linear_segments_meet) {
               1e-5f);
 }
 
+TEST(Curves, widths_and_normals_by_vertex_follow_the_basis) {
+  // B-spline: the ends have (a + 4 b + c) / 6.
+  Scene s = scene_of("Basis \"bezier\" 3 \"b-spline\" 1 Curves \"cubic\" [4] \"nonperiodic\" "
+                     "\"P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"vertex float width\" [.1 .2 .6 .3] "
+                     "\"vertex normal N\" [0 0 1 0 1 0 0 1 0 0 0 1]");
+  auto width = [&](float v) {
+    return glm::distance(at(s.primitives[0], 0, v).P, at(s.primitives[0], 1, v).P);
+  };
+  EXPECT_NEAR(width(0), (0.1f + 4 * 0.2f + 0.6f) / 6, 1e-5f);
+  EXPECT_NEAR(width(1), (0.2f + 4 * 0.6f + 0.3f) / 6, 1e-5f);
+  EXPECT_NEAR(width(0.5f), (0.1f + 23 * 0.2f + 23 * 0.6f + 0.3f) / 48, 1e-5f);
+  expect_near(at(s.primitives[0], 0, 0).N, glm::normalize(Vec3(0, 5, 1)), 1e-4f);
+}
+
 TEST(Curves, ribbons_with_normals_face_these) {
   Scene s =
       scene_of("Curves \"cubic\" [4] \"nonperiodic\" \"P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"constantwidth\" [2] "

@@ -1,5 +1,6 @@
 // Image files: types, modes, quantisation, names, errors.
 #include "render/display/output.h"
+#include "render/display/preview.h"
 #include "tests/render/render_text.h"
 #include "tests/temp_folder.h"
 
@@ -7,7 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <thread>
 
 namespace render::testing {
 namespace {
@@ -157,6 +162,39 @@ TEST_F(Display, depth_files_and_uncompressed_floats) {
   EXPECT_EQ(p[2], 5);
 }
 
+TEST_F(Display, tiff_files_say_where_they_are_and_what_saw_them) {
+  for (const char* compression : {"zip", "lzw", "none", "packbits"}) {
+    EXPECT_EQ(write("Display \"" + path("a.tif") + "\" \"tiff\" \"rgba\" \"string compression\" \"" +
+                    compression + "\""),
+              "");
+    OIIO::ImageSpec spec;
+    auto p = read("a.tif", spec);
+    EXPECT_EQ(spec.get_string_attribute("compression"), compression);
+    EXPECT_EQ(spec.full_width, 8);
+    EXPECT_EQ(spec.full_height, 6);
+    EXPECT_EQ(spec.alpha_channel, 3);
+    EXPECT_NEAR(p[1], 64 / 255.0f, 1.1f / 255);
+    const OIIO::ParamValue* m = spec.find_attribute("worldtoscreen", OIIO::TypeMatrix);
+    ASSERT_NE(m, nullptr);
+    EXPECT_NEAR(static_cast<const float*>(m->data())[5], 1, 1e-6f); // fov 90
+  }
+}
+
+TEST_F(Display, png_has_colours_that_alpha_did_not_scale) {
+  EXPECT_EQ(write("Quantize \"rgba\" 65535 0 65535 0 PixelFilter \"box\" 2 2 Opacity .5 .5 .5 Display \"" +
+                  path("a.png") + "\" \"png\" \"rgba\""),
+            "");
+  OIIO::ImageSpec raw;
+  raw.attribute("oiio:UnassociatedAlpha", 1);
+  auto in = OIIO::ImageInput::open(path("a.png"), &raw);
+  ASSERT_TRUE(in);
+  std::vector<float> p(in->spec().image_pixels() * 4);
+  ASSERT_TRUE(in->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, p.data()));
+  EXPECT_NEAR(p[3], 0.5f, 1e-4f);
+  EXPECT_NEAR(p[0], 0.5f, 1e-4f);
+  EXPECT_NEAR(p[2], 1, 1e-4f);
+}
+
 TEST_F(Display, wrong_parameters_are_reported) {
   auto message = [&](const std::string& parameters) {
     return write("Display \"" + path("x.tif") + "\" \"tiff\" \"rgb\" " + parameters);
@@ -167,12 +205,107 @@ TEST_F(Display, wrong_parameters_are_reported) {
   EXPECT_THAT(message("\"float[2] exposure\" [1 0]"),
               HasSubstr("\"exposure\" takes gain and a gamma above 0"));
   EXPECT_THAT(message("\"float[2] dither\" [1 0]"), HasSubstr("\"dither\" takes one number"));
-  EXPECT_THAT(message("\"float[2] quantize\" [1 0]"), HasSubstr("\"quantize\" takes what 0 and 1 become"));
+  EXPECT_THAT(message("\"float[2] quantize\" [1 0]"), HasSubstr("\"quantize\" takes 4 numbers"));
+  EXPECT_THAT(message("\"float[4] quantize\" [0 255 9 8]"),
+              HasSubstr("\"quantize\" takes what 0 and 1 become"));
   EXPECT_THAT(write("DisplayChannel \"color c\" \"filter\" \"x\" Display \"x\" \"tiff\" \"c\""),
               HasSubstr("Display: channel \"c\": \"filter\" takes one of"));
   EXPECT_THAT(write("Display \"x\" \"tiff\" \",\""), HasSubstr("Display: unknown mode \",\""));
   EXPECT_THAT(write("DisplayChannel \"varying colr c\" Display \"x\" \"null\" \"rgb\""),
               HasSubstr("DisplayChannel: "));
+}
+
+TEST_F(Display, channels_have_their_own_exposure_and_quantisation) {
+  EXPECT_EQ(write("DisplayChannel \"varying float u\" \"float[2] exposure\" [4 1] "
+                  "DisplayChannel \"varying float v\" \"float[4] quantize\" [0 100 0 255] \"float dither\" 0 "
+                  "Quantize \"rgba\" 255 0 255 0 Quantize \"t\" 50 0 255 0 "
+                  "Display \"" +
+                  path("u.exr") + "\" \"openexr\" \"u\" Display \"+" + path("v.tif") +
+                  "\" \"tiff\" \"v\" Display \"+" + path("t.tif") +
+                  "\" \"tiff\" \"varying float t\" Display \"+" + path("w.exr") +
+                  "\" \"openexr\" \"varying float u\""),
+            "");
+  OIIO::ImageSpec spec;
+  auto u = read("u.exr", spec), w = read("w.exr", spec);
+  ASSERT_EQ(u.size(), w.size());
+  for (size_t i = 0; i < u.size(); ++i)
+    EXPECT_FLOAT_EQ(u[i], 4 * w[i]);
+  auto v = read("v.tif", spec);
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::UINT8);
+  EXPECT_LE(*std::max_element(v.begin(), v.end()), 100 / 255.0f);
+  auto t = read("t.tif", spec);
+  EXPECT_EQ(spec.format, OIIO::TypeDesc::UINT8);
+  EXPECT_LE(*std::max_element(t.begin(), t.end()), 50 / 255.0f);
+  EXPECT_GT(*std::max_element(t.begin(), t.end()), 0);
+}
+
+TEST_F(Display, imagers_change_displays_with_a_filter_or_an_exposure_of_their_own) {
+  // The imager swaps red and blue. It sees exposed colours, and all displays see what it made.
+  EXPECT_EQ(write("Imager \"swap\" Exposure 2 1 Display \"" + path("a.exr") +
+                  "\" \"openexr\" \"rgba\" Display \"+" + path("b.exr") +
+                  "\" \"openexr\" \"rgb\" \"float[2] exposure\" [1 2] Display \"+" + path("c.exr") +
+                  "\" \"openexr\" \"rgba\" \"filter\" \"box\" \"float[2] filterwidth\" [3 3] Display \"+" +
+                  path("d.exr") + "\" \"openexr\" \"Ci\""),
+            "");
+  OIIO::ImageSpec spec;
+  for (const char* name : {"a.exr", "c.exr", "d.exr"}) {
+    auto p = read(name, spec);
+    EXPECT_EQ(p[0], 2) << name;
+    EXPECT_EQ(p[1], 0.5f) << name;
+    EXPECT_EQ(p[2], 1) << name;
+  }
+  auto b = read("b.exr", spec);
+  EXPECT_EQ(spec.nchannels, 3);
+  EXPECT_FLOAT_EQ(b[0], 1);
+  EXPECT_FLOAT_EQ(b[1], 0.5f);
+  EXPECT_FLOAT_EQ(b[2], std::sqrt(0.5f));
+}
+
+TEST_F(Display, compression_and_what_only_the_format_knows) {
+  OIIO::ImageSpec spec;
+  EXPECT_EQ(write("Display \"" + path("a.tif") +
+                  "\" \"tiff\" \"rgb\" \"string compression\" \"LZW\" "
+                  "\"float[2] resolution\" [300 300]"),
+            "");
+  read("a.tif", spec);
+  EXPECT_EQ(spec.get_string_attribute("compression"), "lzw");
+  EXPECT_EQ(spec.get_float_attribute("XResolution"), 300);
+  EXPECT_EQ(spec.get_float_attribute("YResolution"), 300);
+  EXPECT_THAT(write("Display \"" + path("b.tif") + "\" \"tiff\" \"rgb\" \"string Artist\" \"Ada\""),
+              HasSubstr("Display \"Artist\" is not known here and is left to the file format"));
+  read("b.tif", spec);
+  EXPECT_EQ(spec.get_string_attribute("Artist"), "Ada");
+  EXPECT_THAT(write("Display \"" + path("c.tif") + "\" \"tiff\" \"rgb\" \"string compression\" \"best\""),
+              HasSubstr("Display: tiff files have no compression \"best\"; known are none, lzw, zip"));
+  EXPECT_THAT(write("Display \"" + path("d.png") + "\" \"png\" \"rgb\" \"string compression\" \"none\""),
+              HasSubstr("Display: \"compression\" has no effect: png files have no choice of it"));
+}
+
+TEST_F(Display, previews_show_what_is_finished) {
+  Rendered r = render_text("Format 8 6 1 PixelFilter \"box\" 1 1 Quantize \"rgba\" 200 0 255 0 Exposure 2 1 "
+                           "Display \"a\" \"tiff\" \"rgba\" WorldBegin Color .5 .25 1 Translate 0 0 5 "
+                           "Disk 0 9 360 WorldEnd");
+  Preview preview(r.scene.options, {}, path("p.png"));
+  PixelRect left{0, 0, 4, 6};
+  preview.add(r.image, left);
+  EXPECT_FALSE(directory_.has("p.png")); // it is too soon
+  std::this_thread::sleep_for(std::chrono::milliseconds(550));
+  preview.add(r.image, left);
+  OIIO::ImageSpec spec;
+  auto p = read("p.png", spec);
+  ASSERT_EQ(p.size(), 8u * 6 * 3);
+  EXPECT_NEAR(p[0], 200 / 255.0f, 1e-6f); // exposed and quantised as the display asks
+  EXPECT_NEAR(p[1], 100 / 255.0f, 1e-6f);
+  EXPECT_NEAR(p[2], 1, 1e-6f);
+  EXPECT_NEAR(p[7 * 3], 48 / 255.0f, 1e-6f);
+  preview.add(r.image, {4, 0, 8, 6});
+  EXPECT_EQ(preview.finish(), "");
+  p = read("p.png", spec);
+  EXPECT_NEAR(p[7 * 3 + 1], 100 / 255.0f, 1e-6f);
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory_), {}), 1);
+  Preview nowhere(r.scene.options, {}, path("no/such/p.png"));
+  nowhere.add(r.image, left);
+  EXPECT_NE(nowhere.finish(), "");
 }
 
 TEST_F(Display, nothing_is_left_of_a_failed_write) {

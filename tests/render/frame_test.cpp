@@ -210,8 +210,8 @@ TEST(Frame, exposure_and_imager) {
 
 TEST(Frame, shader_variables_as_channels) {
   FrameSettings s;
-  s.aovs = {{"N", 3, 0, AovChannel::Source::kVariable, {}},
-            {"heat", 1, 3, AovChannel::Source::kVariable, {}}};
+  s.aovs = {{"N", 3, 0, AovChannel::Source::kVariable, {}, {1, 1}},
+            {"heat", 1, 3, AovChannel::Source::kVariable, {}, {1, 1}}};
   Rendered r = render_text("Format 8 8 1 PixelFilter \"box\" 1 1 WorldBegin Translate 0 0 5 Disk 0 9 360 "
                            "\"constant float heat\" [42] WorldEnd",
                            s);

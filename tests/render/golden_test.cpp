@@ -54,7 +54,7 @@ TEST_P(Golden, picture) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Golden,
                          ::testing::Values("motion_blur", "depth_of_field", "transparency_matte", "variables",
-                                           "shadow_map", "environment", "subpixel", "depth_mask"),
+                                           "shadow_map", "environment", "subpixel", "depth_mask", "solids"),
                          [](const auto& test) { return test.param; });
 
 class GoldenFilter : public Golden {};

@@ -65,6 +65,14 @@ TEST(Interpreter, lights_are_listed_in_order_and_switched) {
   EXPECT_THAT(messages_of("Illuminate 7 1"), HasSubstr("error: Illuminate: no light has the handle \"7\""));
 }
 
+TEST(Interpreter, a_handle_that_is_used_again_names_the_new_light_beside_the_old) {
+  Scene s = scene_of("WorldBegin LightSource \"a\" 2 LightSource \"b\" 2 Disk 0 1 360 Illuminate 2 0 "
+                     "Disk 0 1 360 WorldEnd");
+  ASSERT_EQ(s.primitives[0].attributes().lights.size(), 2u);
+  ASSERT_EQ(s.primitives[1].attributes().lights.size(), 1u);
+  EXPECT_EQ(s.primitives[1].attributes().lights[0]->name, "a");
+}
+
 TEST(Interpreter, frames_restore_options) {
   Scene s = scene_of("FrameBegin 1 Format 8 8 1 Clipping 1 10 FrameEnd WorldBegin WorldEnd");
   EXPECT_EQ(s.options.xres, 4);
@@ -181,14 +189,17 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
   EXPECT_THAT(m, Not(HasSubstr("test.rib:3:1")));
   EXPECT_THAT(messages_of("Frobnicate 1 Frobnicate 2"), HasSubstr("warning: unknown request Frobnicate"));
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
-  EXPECT_THAT(messages_of("Attribute \"trace\" \"bias\" .1"),
-              HasSubstr("Attribute \"trace\" has no effect yet"));
+  EXPECT_EQ(messages_of("Attribute \"trace\" \"bias\" .1"), "");
+  EXPECT_THAT(messages_of("Attribute \"irradiance\" \"handle\" \"a\""),
+              HasSubstr("Attribute \"irradiance\" \"handle\" has no effect: irradiance is not kept in files"));
   EXPECT_THAT(messages_of("Option \"bucket\" \"order\" \"circle\""),
-              HasSubstr("Option \"bucket\" has no effect"));
+              HasSubstr("Option \"bucket\" \"order\" has no effect: buckets are rendered in rows"));
   EXPECT_THAT(messages_of("Option \"statistics\" \"filename\" \"a\""),
-              HasSubstr("Option \"statistics\" \"filename\" has no effect; slrender --statisticsfile"));
-  EXPECT_THAT(messages_of("Attribute \"cull\" \"int x\" 1"),
-              HasSubstr("Attribute \"cull\" \"x\" has no effect; known are hidden and backfacing"));
+              HasSubstr("Option \"statistics\" \"filename\" has no effect: slrender --statisticsfile"));
+  EXPECT_THAT(
+      messages_of("Attribute \"cull\" \"int x\" 1"),
+      HasSubstr("Attribute \"cull\" \"x\" is not known and has no effect (shaders can read its value); "
+                "known are hidden, backfacing"));
   EXPECT_THAT(messages_of("Hider \"photon\""), HasSubstr("Hider \"photon\" is not supported yet"));
 }
 

@@ -39,6 +39,16 @@ protected:
     return path(name);
   }
 
+  /// Renders a scene; its messages.
+  static std::string run(const std::string& rib) {
+    slvm::SourceManager sources;
+    slvm::Diagnostics diagnostics;
+    Renderer renderer(sources, diagnostics);
+    renderer.read_text("scene.rib", rib);
+    renderer.finish();
+    return format_diagnostics(diagnostics, sources);
+  }
+
   /// One lookup of a region that is a point unless `width` says more.
   Color look_up(std::string (TextureMaps::*call)(const slvm::TextureLookup&), const std::string& map, Vec3 at,
                 float width = 0) {
@@ -140,6 +150,43 @@ TEST_F(Maps, six_faces_become_one_environment) {
   }
 }
 
+/// Along the edges of the cube, from one face to the next: no step larger than that of the image itself.
+TEST_F(Maps, faces_of_exactly_ninety_degrees_have_no_seams) {
+  const Vec3 axes[6][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                           {{0, 1, 0}, {0, 0, -1}, {1, 0, 0}}, {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}},
+                           {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},  {{0, 0, -1}, {0, 1, 0}, {-1, 0, 0}}};
+  std::array<std::string, 6> faces;
+  for (size_t i = 0; i < 6; ++i) // eight pixels a side: a step from pixel to pixel is large
+    faces[i] = image("face" + std::to_string(i) + ".exr", 8, 8, [&](float s, float t) {
+      return of_direction(axes[i][0] + axes[i][1] * (1 - 2 * t) + axes[i][2] * (2 * s - 1));
+    });
+  ASSERT_EQ(make_cube_environment(faces, path("cube.env"), 90, {"periodic", "clamp", "box"}), "");
+  OIIO::ImageBuf map(path("cube.env"));
+  ASSERT_TRUE(map.read(0, 0, true, OIIO::TypeDesc::FLOAT));
+  ASSERT_EQ(map.spec().width, 32);
+  float worst = 0;
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 32; ++x) {
+      float lon = (static_cast<float>(x) + 0.5f) / 32 * 2 * kPi,
+            lat = (0.5f - (static_cast<float>(y) + 0.5f) / 16) * kPi;
+      Color want =
+          of_direction({std::cos(lon) * std::cos(lat), std::sin(lon) * std::cos(lat), std::sin(lat)});
+      for (int c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(map.getchannel(x, y, 0, c) - want[c]));
+    }
+  // Half a pixel of a face is 0.06; blending across the edges leaves the curvature only.
+  EXPECT_LT(worst, 0.02f);
+}
+
+TEST_F(Maps, bump_maps_are_textures_of_heights) {
+  std::string source = image("a.exr", 64, 64, ramp);
+  ASSERT_EQ(make_bump(source, path("a.bump"), {"periodic", "clamp", "box"}), "");
+  auto in = OIIO::ImageInput::open(path("a.bump"));
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->spec().nchannels, 1);
+  EXPECT_NEAR(look_up(&TextureMaps::texture, path("a.bump"), {0.25f, 0.75f, 0}).x, 0.25f, 2e-3f);
+}
+
 TEST_F(Maps, what_cannot_be_made_is_said_and_leaves_nothing) {
   EXPECT_THAT(make_texture(path("none.tif"), path("a.tex"), {}), HasSubstr("cannot read"));
   std::string source = image("a.exr", 8, 8, ramp);
@@ -187,17 +234,13 @@ TEST_F(Maps, missing_maps_are_found_under_other_names) {
   EXPECT_EQ(replaced_["wood.tx"], path("wood.tif"));
   look_up(&TextureMaps::texture, "wood.tif", {0.5f, 0.5f, 0});
   EXPECT_TRUE(replaced_.empty());
+  for (auto call : {&TextureMaps::texture, &TextureMaps::environment, &TextureMaps::shadow}) {
+    look_up(call, "stone.tx", {0.5f, 0.5f, 1});
+    EXPECT_EQ(problem_, "no such file in the texture search path");
+  }
 }
 
 TEST_F(Maps, a_rendered_depth_becomes_a_shadow_map_and_a_mask) {
-  auto run = [&](const std::string& rib) {
-    slvm::SourceManager sources;
-    slvm::Diagnostics diagnostics;
-    Renderer renderer(sources, diagnostics);
-    renderer.read_text("scene.rib", rib);
-    renderer.finish();
-    return format_diagnostics(diagnostics, sources);
-  };
   std::string head = "Format 16 16 1 PixelFilter \"box\" 1 1 ";
   EXPECT_EQ(run(head + "PixelSamples 2 2 Hider \"hidden\" \"int jitter\" 0 \"int subpixel\" 1 Display \"" +
                 path("d.z") +
@@ -224,6 +267,27 @@ TEST_F(Maps, a_rendered_depth_becomes_a_shadow_map_and_a_mask) {
   EXPECT_THAT(
       run("Hider \"depthmask\" \"zfile\" \"nowhere.z\" Display \"x\" \"null\" \"rgb\" WorldBegin WorldEnd"),
       HasSubstr("Hider: \"nowhere.z\": no such file in the texture search path"));
+}
+
+TEST_F(Maps, a_blobby_is_repelled_by_what_a_depth_image_shows) {
+  // The ground is a disk at world z = 4; the ball around it would reach to z = 5.
+  std::string frame = "Format 32 32 1 PixelSamples 2 2 ";
+  std::string ball =
+      "Blobby 2 [1001 0 1003 0 16 0 2 0 1] [2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1  .4 .02 .2 .1] [\"" +
+      path("ground.z") + "\"] ";
+  EXPECT_EQ(run("FrameBegin 1 " + frame + "Display \"" + path("ground.z") +
+                "\" \"zfile\" \"z\" WorldBegin Translate 0 0 4 Disk 0 3 360 WorldEnd FrameEnd FrameBegin 2 " +
+                frame + "Display \"" + path("ball.exr") +
+                "\" \"openexr\" \"z\" Rotate 180 0 1 0 Translate 0 0 -9 WorldBegin Translate 0 0 4 " + ball +
+                "WorldEnd FrameEnd"),
+            "");
+  // Seen from behind at z = 9, its back is flat and close to the ground: without it the depth would be 4.
+  OIIO::ImageBuf z(path("ball.exr"));
+  float depth = 0;
+  ASSERT_TRUE(z.read());
+  z.getpixel(16, 16, &depth, 1);
+  EXPECT_GT(depth, 5);
+  EXPECT_LT(depth, 5.1f);
 }
 
 } // namespace

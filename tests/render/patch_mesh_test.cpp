@@ -158,6 +158,13 @@ TEST(PatchMesh, heights_stand_on_the_unit_square) {
   expect_near(at(s.primitives[1], 1, 1).P, {1, 1, 5});
 }
 
+TEST(PatchMesh, nowrap_is_an_old_name_of_nonperiodic) {
+  auto mesh = [](const std::string& wrap) {
+    return scene_of("PatchMesh \"bilinear\" 3 \"" + wrap + "\" 2 \"nonperiodic\" \"Pz\" [0 1 2 3 4 5]");
+  };
+  EXPECT_EQ(mesh("nowrap").primitives.size(), mesh("nonperiodic").primitives.size());
+}
+
 TEST(PatchMesh, messages) {
   auto message = [](const std::string& rib) { return messages_of("WorldBegin " + rib + " WorldEnd"); };
   EXPECT_THAT(message("PatchMesh \"bicubic\" 3 \"periodic\" 4 \"periodic\" \"P\" [0 0 0]"),

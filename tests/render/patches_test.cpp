@@ -88,11 +88,12 @@ TEST(Patches, bases_convert_to_bezier) {
 }
 
 std::vector<Primitive> polygon(std::vector<Vec3> P, std::vector<TypedParam> vars = {}) {
-  std::vector<int> vertices;
+  PolygonFaces face;
   for (size_t i = 0; i < P.size(); ++i)
-    vertices.push_back(static_cast<int>(i));
+    face.vertices.push_back(static_cast<int>(i));
+  face.loops = {static_cast<int>(P.size())};
   std::vector<Primitive> out;
-  add_polygon({vertices, 0, 0}, P, vars, std::make_shared<PrimitiveState>(), out);
+  add_polygons(face, P, vars, std::make_shared<PrimitiveState>(), out);
   return out;
 }
 

@@ -117,13 +117,13 @@ TEST_F(Procedurals, requests_with_mistakes) {
   world("Procedural \"Magic\" [\"x\"] [0 1 0 1 0 1]\nProcedural \"RunProgram\" [\"x\"] [0 1 0 1 0 1]\n"
         "Procedural \"DelayedReadArchive\" [\"x\" \"y\"] [0 1 0 1 0 1]\n"
         "Procedural \"DelayedReadArchive\" [\"x\"] [1 0 0 1 0 1]\n"
-        "Procedural \"DynamicLoad\" [\"x.so\" \"\"] [1 0 0 1 0 1]");
+        "Procedural \"DynamicLoad\" [\"x.so\"] [0 1 0 1 0 1]");
   std::string m = messages();
   EXPECT_THAT(m, HasSubstr("unknown type \"Magic\"; known are DelayedReadArchive, RunProgram, DynamicLoad"));
   EXPECT_THAT(m, HasSubstr("\"RunProgram\" takes a program and the data for it, found 1"));
   EXPECT_THAT(m, HasSubstr("\"DelayedReadArchive\" takes the name of a file, found 2"));
   EXPECT_THAT(m, HasSubstr("the bound is empty; expected xmin xmax ymin ymax zmin zmax"));
-  EXPECT_THAT(m, HasSubstr("warning: Procedural \"DynamicLoad\" is not supported yet"));
+  EXPECT_THAT(m, HasSubstr("\"DynamicLoad\" takes a plug-in and its parameters, found 1"));
 }
 
 const char* kAsk = "Procedural \"RunProgram\" [\"maker\" \"the data\"] [-1 1 -1 1 0 1] ";

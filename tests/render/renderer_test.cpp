@@ -219,6 +219,15 @@ TEST_F(RendererTest, atmosphere_and_imager) {
   EXPECT_FLOAT_EQ(value(14, 8, 3), 1);
 }
 
+TEST_F(RendererTest, the_background_takes_its_colour_by_two_names) {
+  shaders_["background"] = "imager background(color bgcolor = 1) { Ci += (1 - alpha) * bgcolor; }";
+  for (const char* name : {"bgcolor", "color"}) {
+    EXPECT_EQ(render(fmt::format("Imager \"background\" \"{}\" [.5 .25 0] WorldBegin WorldEnd", name)), "");
+    EXPECT_EQ(value(3, 3, 0), 0.5f) << name;
+    EXPECT_EQ(value(3, 3, 1), 0.25f) << name;
+  }
+}
+
 TEST_F(RendererTest, attributes_and_options_can_be_asked_for) {
   shaders_["ask"] =
       "surface ask() { float sides = 0, heat = 0, format[3] = {0,0,0}; string pass = \"\"; "
@@ -270,6 +279,22 @@ TEST_F(RendererTest, colours_that_are_not_numbers_are_reported_and_drawn_black) 
               HasSubstr("shading points have a colour that is not a finite number; they are drawn black"));
   EXPECT_EQ(value(8, 8, 0), 0);
   EXPECT_EQ(value(8, 8, 3), 1);
+}
+
+TEST_F(RendererTest, a_surface_that_only_sets_oi_to_zero_makes_a_hole) {
+  shaders_["ring"] = "surface ring() { if (u < .5) Oi = 0; }";
+  shaders_["glow"] = "surface glow() { Ci = .25; Oi = 0; }";
+  shaders_["show"] = kShow;
+  const std::string sheet = "Patch \"bilinear\" \"P\" [-1 1 5 1 1 5 -1 -1 5 1 -1 5] ";
+  const std::string behind = "Color 0 0 1 Surface \"show\" Translate 0 0 9 Disk 0 20 360 WorldEnd";
+  EXPECT_EQ(render("WorldBegin Color 0 1 0 Surface \"ring\" " + sheet + behind), "");
+  EXPECT_EQ(value(3, 8, 1), 0); // through the hole
+  EXPECT_EQ(value(3, 8, 2), 1);
+  EXPECT_EQ(value(12, 8, 1), 1);
+  EXPECT_EQ(value(12, 8, 2), 0);
+  EXPECT_EQ(render("WorldBegin Color 0 1 0 Surface \"glow\" " + sheet + behind), "");
+  EXPECT_EQ(value(8, 8, 1), 0.25f); // light that is added
+  EXPECT_EQ(value(8, 8, 2), 1.25f);
 }
 
 TEST_F(RendererTest, textures_are_found_on_their_search_path) {

@@ -1,5 +1,5 @@
 // slrender as users run it: options, exit codes, messages.
-#include "tests/temp_folder.h"
+#include "tests/render/run_slrender.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,31 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class SlrenderTest : public ::testing::Test {
-protected:
-  void file(const std::string& name, const std::string& text) { directory_.write(name, text); }
-  bool exists(const std::string& name) const { return directory_.has(name); }
-
-  struct Outcome {
-    int status;
-    std::string text; ///< standard output and errors together
-  };
-  /// Runs slrender in the test's directory.
-  Outcome run(const std::string& arguments) {
-    std::string command =
-        fmt::format("cd '{}' && '{}' {} 2>&1", directory_.string(), SLRENDER_PROGRAM, arguments);
-    std::FILE* pipe = ::popen(command.c_str(), "r");
-    Outcome out{-1, {}};
-    char buffer[4096];
-    for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
-      out.text.append(buffer, n);
-    int status = ::pclose(pipe);
-    out.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return out;
-  }
-
-  anemone::test::TempFolder directory_;
-};
+using anemone::test::SlrenderTest;
 
 const char* kScene = "Display \"a.png\" \"png\" \"rgba\"\nFormat 32 24 1\nWorldBegin\nTranslate 0 0 5\n"
                      "Sphere 1 -1 1 360\nWorldEnd\n";
@@ -49,6 +25,30 @@ TEST_F(SlrenderTest, renders_a_file) {
   EXPECT_EQ(o.status, 0);
   EXPECT_EQ(o.text, "");
   EXPECT_TRUE(exists("a.png"));
+}
+
+TEST_F(SlrenderTest, pictures_and_shadows_need_no_openimageio) {
+  // A copy of the program without the module that holds the library.
+  fs::copy_file(SLRENDER_PROGRAM, directory_ / "alone");
+  auto alone = [&](const std::string& rib) {
+    file("a.rib", rib);
+    std::FILE* pipe = ::popen(fmt::format("cd '{}' && ./alone a.rib 2>&1", directory_.string()).c_str(), "r");
+    std::string text;
+    char buffer[4096];
+    for (size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+      text.append(buffer, n);
+    ::pclose(pipe);
+    return text;
+  };
+  const std::string scene = "Format 8 8 1 WorldBegin Translate 0 0 5 Sphere 1 -1 1 360 WorldEnd ";
+  EXPECT_EQ(alone("Display \"a.png\" \"png\" \"rgba\" Display \"+b\" \"tiff\" \"rgbaz\" " + scene), "");
+  EXPECT_TRUE(exists("a.png"));
+  EXPECT_TRUE(exists("b.tif"));
+  EXPECT_EQ(alone("Display \"a.z\" \"zfile\" \"z\" " + scene + "MakeShadow \"a.z\" \"a.shd\""), "");
+  EXPECT_TRUE(exists("a.shd"));
+  EXPECT_EQ(alone("Hider \"depthmask\" \"zfile\" \"a.shd\" Display \"c\" \"tiff\" \"rgb\" " + scene), "");
+  EXPECT_THAT(alone("Display \"a.exr\" \"openexr\" \"rgba\" " + scene),
+              HasSubstr("without anemone_images.so (OpenImageIO) there are no textures"));
 }
 
 TEST_F(SlrenderTest, statistics_as_text_and_json) {
@@ -77,6 +77,63 @@ TEST_F(SlrenderTest, a_killed_render_leaves_no_damaged_file) {
       fmt::format("cd '{}' && timeout -s KILL 0.4 '{}' a.rib", directory_.string(), SLRENDER_PROGRAM);
   EXPECT_NE(std::system(command.c_str()), 0);
   EXPECT_FALSE(exists("a.tif"));
+}
+
+/// Whatever is there under the name is complete; what is left under others says whose it was, and the next
+/// run removes it.
+TEST_F(SlrenderTest, killed_at_any_time_it_leaves_whole_files) {
+  // Little to render, much to write: 100 times the same file, and a statistics file.
+  std::string scene = "Format 900 700 1 PixelSamples 1 1 PixelFilter \"box\" 1 1\n"
+                      "Display \"a.tif\" \"tiff\" \"rgba\" \"string compression\" \"none\"\n";
+  for (int i = 0; i < 100; ++i)
+    scene += "WorldBegin Translate 0 0 5 ShadingRate 400 Disk 0 1 360 WorldEnd\n";
+  file("a.rib", scene);
+  int killed = 0;
+  for (int i = 0; i < 20; ++i) {
+    double after = 0.05 + 0.037 * i;
+    std::string command = fmt::format("cd '{}' && timeout -s KILL {} '{}' --preview=p.png a.rib >log 2>&1",
+                                      directory_.string(), after, SLRENDER_PROGRAM);
+    killed += std::system(command.c_str()) != 0;
+    EXPECT_TRUE(!exists("a.tif") || fs::file_size(directory_ / "a.tif") > 900u * 700 * 4) << after;
+    for (const auto& entry : fs::directory_iterator(directory_)) {
+      std::string name = entry.path().filename().string();
+      bool known = name == "a.tif" || name == "a.rib" || name == "log" || name == "p.png";
+      EXPECT_TRUE(known || name.ends_with(".part")) << name;
+    }
+  }
+  EXPECT_GT(killed, 10);
+  // What a process that is no more has left, and what is somebody else's.
+  std::string part;
+  for (const auto& entry : fs::directory_iterator(directory_))
+    if (entry.path().extension() == ".part") part = entry.path().filename().string();
+  file("a.tif.part", "");
+  file("a.tif.elsewhere-1.part", "");
+  file("b.rib", "Format 9 7 1 Display \"a.tif\" \"tiff\" \"rgba\" WorldBegin WorldEnd");
+  EXPECT_EQ(run("--preview=p.png b.rib").status, 0);
+  EXPECT_TRUE(exists("a.tif.part"));
+  EXPECT_TRUE(exists("a.tif.elsewhere-1.part"));
+  EXPECT_TRUE(part.empty() || !exists(part)) << part;
+}
+
+TEST_F(SlrenderTest, previews_end_as_the_picture) {
+  file("a.rib", std::string("Quantize \"rgba\" 255 0 255 0\n") + kScene);
+  Outcome o = run("--preview a.rib"); // the scene is not its file name
+  EXPECT_EQ(o.status, 0) << o.text;
+  EXPECT_TRUE(exists("preview.png"));
+  EXPECT_EQ(run("-preview=look.png -d null a.rib").status, 0);
+  EXPECT_TRUE(exists("look.png"));
+  EXPECT_THAT(run("--help").text, HasSubstr("--preview=FILE"));
+  Outcome bad = run("--preview=no/such/folder/p.png a.rib");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.text, HasSubstr("cannot write the preview \"no/such/folder/p.png\""));
+}
+
+TEST_F(SlrenderTest, the_null_hider_renders_nothing) {
+  file("a.rib", std::string("Hider \"null\"\n") + kScene);
+  Outcome o = run("a.rib");
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.text, "");
+  EXPECT_FALSE(exists("a.png"));
 }
 
 TEST_F(SlrenderTest, reads_standard_input_when_no_file_is_given) {

@@ -242,8 +242,8 @@ TEST(Subdivision, messages) {
               HasSubstr("the value is 0, 1, 2 or 3"));
   EXPECT_THAT(message(cube + "[\"wrinkle\"] [0 0] [] [] " + kCubeP),
               HasSubstr("tag \"wrinkle\": this tag is not known and has no effect; it is skipped"));
-  EXPECT_THAT(message(std::string("SubdivisionMesh \"loop\" ") + kCubeFaces + kCubeP),
-              HasSubstr("scheme \"loop\" is not known; read as \"catmull-clark\""));
+  EXPECT_THAT(message(std::string("SubdivisionMesh \"butterfly\" ") + kCubeFaces + kCubeP),
+              HasSubstr("scheme \"butterfly\" is not known; read as \"catmull-clark\""));
   std::string many = "SubdivisionMesh \"catmull-clark\" [70000] [", P;
   for (int i = 0; i < 70000; ++i) {
     many += std::to_string(i) + " ";
@@ -252,6 +252,42 @@ TEST(Subdivision, messages) {
   EXPECT_THAT(
       message(many + "] \"P\" [" + P + "]"),
       HasSubstr("the faces do not make a mesh: one has too many corners, or a vertex too many edges"));
+}
+
+TEST(Subdivision, loop_scheme_of_triangles) {
+  // An octahedron. Limit of a vertex of valence n: (1 - n w) v + w (sum of neighbours), w = 1 / (n + 3 / (8
+  // b)), n b = 5/8 - (3/8 + cos(2 pi / n) / 4)^2 (Loop 1987); here the neighbours' sum is 0.
+  Scene s =
+      scene_of("SubdivisionMesh \"loop\" [3 3 3 3 3 3 3 3] [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5] "
+               "\"P\" [1 0 0 -1 0 0 0 1 0 0 -1 0 0 0 1 0 0 -1] \"vertex float x\" [1 -1 0 0 0 0] "
+               "\"facevarying float f\" [0 1 2 0 1 2 0 1 2 0 1 2 0 1 2 0 1 2 0 1 2 0 1 2] "
+               "\"uniform float k\" [0 1 2 3 4 5 6 7]");
+  ASSERT_EQ(s.primitives.size(), 24u);
+  double b = (5 / 8.0 - 9 / 64.0) / 4, w = 1 / (4 + 3 / (8 * b));
+  expect_near(at(s.primitives[0], 0, 0).P, {static_cast<float>(1 - 4 * w), 0, 0}, 1e-5f);
+  expect_near(at(s.primitives[2], 0, 0).P, {0, 0, static_cast<float>(1 - 4 * w)}, 1e-5f);
+  for (const Primitive& p : s.primitives)
+    for (float u : {0.0f, 0.3f, 1.0f})
+      for (float v : {0.0f, 0.8f, 1.0f}) {
+        SurfacePoint q = at(p, u, v);
+        // Convex, round the origin; the variable goes the way of P; tangents agree with differences.
+        EXPECT_GT(std::abs(glm::dot(glm::normalize(q.N), glm::normalize(q.P))), 0.9f);
+        EXPECT_NEAR(value(p, "x", u, v), q.P.x, 1e-5f);
+        float h = u < 0.5f ? 0.01f : -0.01f, g = v < 0.5f ? 0.01f : -0.01f;
+        expect_near((at(p, u + h, v).P - q.P) / h, q.dPdu, 0.02f);
+        expect_near((at(p, u, v + g).P - q.P) / g, q.dPdv, 0.02f);
+      }
+  // The parts of a face meet in its middle, those of two faces along their side.
+  expect_near(at(s.primitives[0], 1, 1).P, at(s.primitives[1], 1, 1).P, 1e-5f);
+  expect_near(at(s.primitives[0], 1, 0).P, at(s.primitives[1], 0, 1).P, 1e-5f);
+  // The side from 2 to 4 of the first face, from 4 to 2 in the second.
+  expect_near(at(s.primitives[1], 0.5f, 0).P, at(s.primitives[3], 0, 0.5f).P, 1e-5f);
+  EXPECT_NEAR(value(s.primitives[0], "f", 1, 1), 1, 1e-5f);
+  EXPECT_EQ(value(s.primitives[23], "k", 0, 0), 7);
+  EXPECT_THAT(
+      messages_of(
+          "WorldBegin SubdivisionMesh \"loop\" [4] [0 1 2 3] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0] WorldEnd"),
+      ::testing::HasSubstr("SubdivisionMesh: the scheme \"loop\" takes triangles only"));
 }
 
 } // namespace

@@ -90,7 +90,7 @@ private:
   // misses.
   void simplify_conditional(InstId id) {
     Inst& inst = m_.insts[id];
-    uint32_t fixed = fixed_args(inst.op);
+    uint32_t fixed = fixed_args(inst);
     InstId yield = terminator(inst.regions[0]);
     if (m_.insts[yield].op != Op::kYield) return;
     std::vector<bool> keep = drop(id, {yield}, [&](size_t i) {
@@ -121,7 +121,7 @@ private:
   void simplify_loop(InstId id, const LoopExits& exits) {
     Inst& inst = m_.insts[id];
     Region& body = inst.regions[0];
-    uint32_t fixed = fixed_args(inst.op);
+    uint32_t fixed = fixed_args(inst);
     if (inst.op == Op::kBlock) {
       simplify_block(id, exits);
       return;

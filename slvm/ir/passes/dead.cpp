@@ -101,7 +101,7 @@ private:
       mark_args(inst);
       return;
     }
-    uint32_t fixed = inst.op == Op::kIf ? 1 : fixed_args(inst.op);
+    uint32_t fixed = inst.op == Op::kIf ? 1 : fixed_args(inst);
     for (uint32_t i = 0; i < fixed; ++i)
       need(inst.args[i]);
     // How lanes leave a loop that runs decides what runs after it and how often.
@@ -150,7 +150,7 @@ private:
       mark_exit(t);
     }
     if (inst.op == Op::kIf || inst.op == Op::kBlock) return;
-    need(inst.args[fixed_args(inst.op) + d.position]);
+    need(inst.args[fixed_args(inst) + d.position]);
     // Result and parameter of a loop are one carried value: they stay together.
     if (d.position < inst.results.size()) need(inst.results[d.position]);
     if (d.position < inst.regions[0].params.size()) need(inst.regions[0].params[d.position]);
@@ -189,8 +189,8 @@ private:
         if (keep[i - offset]) list[out++] = list[i];
       list.resize(out);
     };
+    if (inst.op != Op::kIf && inst.op != Op::kBlock) filter(inst.args, fixed_args(inst));
     filter(inst.results, 0);
-    if (inst.op != Op::kIf && inst.op != Op::kBlock) filter(inst.args, fixed_args(inst.op));
     if (!inst.regions[0].params.empty()) filter(inst.regions[0].params, 0);
     for (InstId t : info_[id].feeders)
       filter(m_.insts[t].args, 0);

@@ -82,6 +82,7 @@ private:
     case Op::kLoop:
     case Op::kBlock:
     case Op::kIlluminance:
+    case Op::kGather:
     case Op::kIlluminate:
     case Op::kSolar: visit_region_inst(id); break;
     case Op::kConstant:
@@ -168,21 +169,22 @@ private:
   void visit_region_inst(InstId id) {
     Inst& inst = m_.insts[id];
     bool condition = inst.op == Op::kIf && m_.varying(inst.args[0]);
-    bool by_light = inst.op == Op::kIlluminance || inst.op == Op::kIlluminate || inst.op == Op::kSolar;
-    frames_.push_back({id, condition || by_light});
+    bool by_lane =
+        is_light_statement(inst.op) || inst.op == Op::kGather; // lights and rays choose their lanes
+    frames_.push_back({id, condition || by_lane});
     for (Region& r : inst.regions)
       visit(r);
     frames_.pop_back();
-    if (condition || by_light || divergent_[id])
+    if (condition || by_lane || divergent_[id])
       for (ValueId v : inst.results)
         make_varying(v);
-    uint32_t fixed = fixed_args(inst.op);
-    if (inst.op == Op::kLoop || inst.op == Op::kIlluminance) {
+    uint32_t fixed = fixed_args(inst);
+    if (is_loop(inst.op) && inst.op != Op::kBlock) {
       const std::vector<ValueId>& params = inst.regions[0].params;
       for (size_t i = 0; i < params.size(); ++i) {
         flow(inst.args[fixed + i], params[i]);
         flow(params[i], inst.results[i]);
-        if (divergent_[id] || by_light) make_varying(params[i]);
+        if (divergent_[id] || by_lane) make_varying(params[i]);
         // Initial value, parameter and result share a register: they agree.
         flow(inst.results[i], params[i]);
       }

@@ -43,7 +43,7 @@ private:
         changed_ = true;
         continue;
       }
-      bool loop = m_.insts[id].op == Op::kLoop || m_.insts[id].op == Op::kIlluminance;
+      bool loop = is_loop(m_.insts[id].op) && m_.insts[id].op != Op::kBlock;
       for (size_t i = 0; i < m_.insts[id].regions.size(); ++i) {
         for (InstId moved : visit(m_.insts[id].regions[i], depth + loop)) {
           // Out of an if inside a loop: on in the same direction.

@@ -59,7 +59,7 @@ private:
 
   static bool same_rounds(const Inst& a, const Inst& b) {
     return b.op == Op::kIlluminance && a.index == b.index &&
-           std::equal(a.args.begin(), a.args.begin() + fixed_args(a.op), b.args.begin());
+           std::equal(a.args.begin(), a.args.begin() + fixed_args(a), b.args.begin());
   }
 
   // ---- Merging.
@@ -105,7 +105,7 @@ private:
     auto append = [](auto& to, const auto& from, size_t skip = 0) {
       to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(skip), from.end());
     };
-    append(first.args, second.args, fixed_args(second.op));
+    append(first.args, second.args, fixed_args(second));
     append(first.results, second.results);
     Region &a = first.regions[0], &b = second.regions[0];
     append(a.params, b.params);

@@ -1,4 +1,4 @@
-// The module, and image files by it.
+// Modules, and image files by one of them.
 #include "slvm/tools/sltest/image.h"
 #include "slvm/tools/sltest/module.h"
 
@@ -9,13 +9,14 @@
 
 namespace slvm::sltest {
 
-void* module_function(const char* name) {
+void* module_function(const char* name, const char* module) {
   std::error_code error;
   const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
   if (error) return nullptr;
-  for (const char* place : {"sltest_images.so", "../lib/anemone/sltest_images.so"}) {
-    // Never closed: the library behind it has threads of its own.
-    if (void* module = dlopen((folder / place).c_str(), RTLD_NOW | RTLD_LOCAL)) return dlsym(module, name);
+  for (const char* place : {"", "../lib/anemone"}) {
+    // Never closed: the libraries behind it have threads of their own.
+    if (void* found = dlopen((folder / place / module).c_str(), RTLD_NOW | RTLD_LOCAL))
+      return dlsym(found, name);
   }
   return nullptr;
 }

@@ -122,15 +122,39 @@ void Marker::statement(Stmt& s) {
     body(e.body, probed(s));
     break;
   }
-  case StmtKind::kGather: {
-    auto& g = static_cast<GatherStmt&>(s);
-    body(g.body, probed(s));
-    body(g.else_body);
-    break;
-  }
+  case StmtKind::kGather: gather(static_cast<GatherStmt&>(s)); break;
   case StmtKind::kEmpty:
   case StmtKind::kJump: break;
   }
+}
+
+// Variables for what rays find count as set where these hit something, those for the ray itself in both
+// blocks.
+void Marker::gather(GatherStmt& s) {
+  for (ExprPtr* e : {&s.category, &s.position, &s.direction, &s.angle, &s.samples})
+    expr(*e);
+  std::vector<Variable*> at_hits, always;
+  for (TokenArg& t : s.tokens) {
+    const bool output = t.info && t.info->output;
+    if (!output && t.value->array_length == kNotArray) expr(t.value);
+    Variable* set = output ? place(*t.value) : nullptr;
+    if (!set) continue;
+    at_hits.push_back(set);
+    if (t.info->name != "ray:length" && t.info->name.find('*') == std::string_view::npos)
+      always.push_back(set);
+  }
+  auto begin = [&](StmtPtr& block, const std::vector<Variable*>& variables) {
+    if (variables.empty()) return;
+    if (!block) block = std::make_unique<BlockStmt>(s.range);
+    std::vector<StmtPtr>& list = static_cast<BlockStmt&>(*block).statements;
+    for (Variable* set : variables)
+      list.insert(list.begin(),
+                  make_.statement(make_.assign(whole(*set, s.range), make_.number(1, s.range))));
+  };
+  body(s.body, probed(s));
+  body(s.else_body);
+  begin(s.body, at_hits);
+  begin(s.else_body, always);
 }
 
 void Marker::loop(LoopStmt& s) {

@@ -39,6 +39,7 @@ private:
   void body(slc::StmtPtr& s, bool probed_head = false);
   void statement(slc::Stmt& s);
   void loop(slc::LoopStmt& s);
+  void gather(slc::GatherStmt& s);
   void declaration(slc::DeclarationStmt& s);
   /// Expressions evaluated for their effects; what calls without a result set is marked behind them.
   void expressions(std::vector<slc::ExprPtr>& list);

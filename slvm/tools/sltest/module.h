@@ -1,11 +1,11 @@
-// The module sltest_images.so, which holds all that needs OpenImageIO: loading it takes longer than most
-// tests.
+// Modules that take longer to load than most tests to run: sltest_images.so, which holds all that needs
+// OpenImageIO, and sltest_rays.so, which holds the renderer.
 #pragma once
 
 namespace slvm::sltest {
 
-/// A function of the module, or null where there is no module. The module is looked for beside this program
-/// and where it is installed.
-void* module_function(const char* name);
+/// A function of a module, or null where there is no module. It is looked for beside this program and where
+/// it is installed.
+void* module_function(const char* name, const char* module = "sltest_images.so");
 
 } // namespace slvm::sltest

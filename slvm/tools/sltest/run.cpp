@@ -119,7 +119,30 @@ std::unique_ptr<Binding> Binding::make(const Setup& setup, const Prepared& prepa
     binding->lights_.push_back(binding->bind(setup, ref, library, config, error));
     if (!binding->lights_.back()) return nullptr;
   }
-  return binding;
+  return binding->set_scene(setup, library, config, error) ? std::move(binding) : nullptr;
+}
+
+/// What rays see. Its shaders are compiled as those of the test are, without marks.
+bool Binding::set_scene(const Setup& setup, ShaderLibrary& library, const RunConfig& config,
+                        RunError& error) {
+  if (setup.scene.empty()) return true;
+  RaySceneRequest request;
+  request.machine = &machine_;
+  request.rib = setup.scene;
+  request.name = setup.scene_where.file;
+  request.path = setup.path;
+  request.shader = [&](const std::string& name) -> Result<std::string> {
+    ShaderError why;
+    ShaderPtr shader = library.find(name, {config.opt_level, nullptr}, setup.path, why);
+    if (!shader) return Error{why.text};
+    return std::string(reinterpret_cast<const char*>(shader->slo.data()), shader->slo.size());
+  };
+  ray_scene_ = make_ray_scene(request);
+  std::string problem =
+      ray_scene_ ? ray_scene_->problem() : "without sltest_rays.so (the renderer) there are no scenes";
+  if (problem.empty()) return true;
+  error = {Failure::kSetup, fmt::format("{}: scene: {}", to_string(setup.scene_where), problem)};
+  return false;
 }
 
 namespace {
@@ -134,7 +157,8 @@ std::vector<const Instance*> pointers(const std::vector<std::unique_ptr<Instance
 } // namespace
 
 Worker::Worker(const Binding& binding)
-    : binding_(binding), services_(binding.prepared_->scene, pointers(binding.lights_)),
+    : binding_(binding), services_(binding.prepared_->scene, pointers(binding.lights_),
+                                   binding.ray_scene_ ? &binding.ray_scene_->rays() : nullptr),
       context_(binding.machine_, services_), grid_(binding.prepared_->grid.nu, binding.prepared_->grid.nv) {}
 
 double Worker::shade() {

@@ -6,6 +6,7 @@
 #include "slvm/machine.h"
 #include "slvm/tools/sltest/grid_data.h"
 #include "slvm/tools/sltest/library.h"
+#include "slvm/tools/sltest/ray_scene.h"
 #include "slvm/tools/sltest/services.h"
 #include "slvm/tools/sltest/setup.h"
 
@@ -68,11 +69,13 @@ private:
   friend class Worker;
   explicit Binding(const MachineOptions& options) : machine_(options) {}
   std::unique_ptr<Instance> bind(const Setup&, const ShaderRef&, ShaderLibrary&, const RunConfig&, RunError&);
+  bool set_scene(const Setup&, ShaderLibrary&, const RunConfig&, RunError&);
 
   Machine machine_;
   const Prepared* prepared_ = nullptr;
   std::unique_ptr<Instance> main_;
   std::vector<std::unique_ptr<Instance>> companions_, lights_;
+  std::unique_ptr<RayScene> ray_scene_;
   ShaderSet set_;
   std::string warnings_;
   std::vector<std::string> main_warnings_;

@@ -40,8 +40,9 @@ struct Scene {
 
 class MemoryServices final : public RendererServices {
 public:
-  MemoryServices(const Scene& scene, std::vector<const Instance*> lights)
-      : scene_(scene), lights_(std::move(lights)) {}
+  /// `rays` may be null.
+  MemoryServices(const Scene& scene, std::vector<const Instance*> lights, RayServices* rays = nullptr)
+      : scene_(scene), lights_(std::move(lights)), rays_(rays) {}
 
   bool space_to_current(const ShadingState&, std::string_view space, Matrix4& m) override;
   bool current_to_space(const ShadingState&, std::string_view space, Matrix4& m) override;
@@ -51,6 +52,7 @@ public:
   bool renderer_info(const ShadingState&, std::string_view name, Value& out) override;
   void print(const ShadingState&, std::string_view text) override { printed_ += text; }
   TextureServices* textures() override;
+  RayServices* rays() override { return rays_; }
 
   const std::string& printed() const { return printed_; }
   void forget_printed() { printed_.clear(); }
@@ -58,6 +60,7 @@ public:
 private:
   const Scene& scene_;
   std::vector<const Instance*> lights_;
+  RayServices* rays_;
   std::string printed_;
 };
 

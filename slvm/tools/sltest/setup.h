@@ -45,6 +45,8 @@ struct Setup {
   std::vector<Setting> primvars;         ///< primitive variables, likewise
   std::map<std::string, Matrix4> spaces; ///< from the named space to "current"
   std::vector<Setting> attributes, options;
+  std::string scene; ///< RIB of what rays hit; "": nothing
+  Where scene_where;
   std::string prelude;           ///< RSL before each expression: #include lines, macros, functions
   std::vector<std::string> path; ///< folders searched for shaders and for what they include, in order
 };

@@ -204,6 +204,8 @@ void read_setup(TableReader& table, const TomlSource& source, Setup& setup) {
       else
         setup.spaces[name] = m;
     }
+  if (const toml::node* node = table.get("scene"); node && table.read("scene", setup.scene))
+    setup.scene_where = source.where(*node);
   table.read("prelude", setup.prelude);
   if (const toml::node* node = table.get("path")) read_path(*node, source, setup);
 }

@@ -6,6 +6,7 @@
 #include "slvm/format/slo.h"
 #include "slvm/machine.h"
 #include "tests/fuzz/no_scene.h"
+#include "tests/fuzz/programs/scene_of_planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -20,7 +21,7 @@ namespace {
 constexpr int kNu = 17, kNv = 5; // no multiple of any vector
 constexpr const char* kOutputs[] = {"of", "oc", "op", "ov", "on", "om", "oa"};
 
-/// Three lights, one space that is not "current"; remembers what is printed.
+/// Three lights, three planes that rays hit, one space that is not "current"; remembers what is printed.
 class Scene : public NoScene {
 public:
   std::vector<const Instance*> light_list;
@@ -35,8 +36,10 @@ public:
   }
   std::span<const Instance* const> lights(const ShadingState&) override { return light_list; }
   void print(const ShadingState&, std::string_view text) override { printed += text; }
+  RayServices* rays() override { return &planes_; }
 
 private:
+  SceneOfPlanes planes_;
   Matrix4 tilted_ = {{0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, 0, 0, 2, 0, 1, -1, 3, 1}};
 };
 

@@ -2,6 +2,7 @@
 #include "tests/fuzz/programs/generator.h"
 #include "tests/fuzz/programs/writer.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <utility>
@@ -155,6 +156,78 @@ void ProgramWriter::illuminance() {
   std::erase_if(scope_, [](const Variable& v) { return v.name == "Cl" || v.name == "L"; });
 }
 
+// Variables that the rays of a loop set, as pairs.
+std::string ProgramWriter::ray_outputs() {
+  constexpr std::pair<const char*, Type> kOutputs[] = {
+      {"surface:w", Type::kFloat},      {"surface:Ci", Type::kColor},  {"primitive:P", Type::kPoint},
+      {"ray:direction", Type::kVector}, {"ray:length", Type::kFloat},  {"surface:none", Type::kColor},
+      {"ray:origin", Type::kPoint},     {"primitive:N", Type::kNormal}};
+  std::string pairs;
+  std::vector<std::string> taken; // two outputs to one variable: which comes last is not defined
+  for (auto [name, type] : kOutputs) {
+    if (!choose_.chance(30)) continue;
+    std::vector<const Variable*> fitting = variables(type, false, true);
+    std::erase_if(fitting, [&](const Variable* v) {
+      return v->uniform || std::find(taken.begin(), taken.end(), v->name) != taken.end();
+    });
+    if (fitting.empty()) continue;
+    taken.push_back(one_of(fitting)->name);
+    pairs += fmt::format(", \"{}\", {}", name, taken.back());
+  }
+  return pairs;
+}
+
+// A float that rays bring. Under a condition "samplebase" would differentiate the position.
+std::string ProgramWriter::ray_function() {
+  const std::string p = expression(Type::kPoint, 2, false), d = expression(Type::kVector, 2, false);
+  const std::string samples =
+      pointwise_
+          ? ""
+          : fmt::format(", \"samples\", {}, \"samplecone\", 0.3, \"samplebase\", 0", 1 + choose_.below(4));
+  switch (choose_.below(5)) {
+  case 0: return fmt::format("(float trace({}, {}{}))", p, d, samples);
+  case 1: return fmt::format("comp(trace({}, {}{}), {})", p, d, samples, choose_.below(3));
+  case 2: return fmt::format("(float transmission({}, {} + {}{}))", p, p, d, samples);
+  case 3: return fmt::format("occlusion({}, normal {}, 4)", p, d);
+  default: return fmt::format("(float visibility({}, {}))", p, expression(Type::kPoint, 1, false));
+  }
+}
+
+// A loop over rays, or a call that shoots some. Where a point must not depend on its grid nothing is left to
+// chance.
+void ProgramWriter::rays() {
+  std::vector<const Variable*> floats = variables(Type::kFloat, false, true);
+  std::erase_if(floats, [](const Variable* v) { return v->uniform; });
+  if (choose_.chance(35) && !floats.empty()) {
+    const std::string target = one_of(floats)->name;
+    return line(fmt::format("{} = {};", target, ray_function()));
+  }
+  if (nesting_ >= kNesting || loops_ > 2) return assignment();
+  const bool traverse = choose_.chance(35);
+  std::string head = fmt::format("\"{}\", {}, {}", choose_.chance(20) ? "occlusion" : "",
+                                 expression(Type::kPoint, 2, false), expression(Type::kVector, 2, false));
+  if (!traverse) {
+    head += fmt::format(", {}", pointwise_ || choose_.chance(40) ? "0" : "0.6");
+    head += choose_.chance(60) ? fmt::format(", {}", 1 + choose_.below(4))
+                               : fmt::format(", min(3, {})", expression(Type::kFloat, 2, false));
+    head += ", \"samplebase\", 0";
+    if (choose_.chance(30)) head += ", \"distribution\", \"cosine\"";
+  }
+  if (choose_.chance(20)) head += fmt::format(", \"maxdist\", {}", expression(Type::kFloat, 2, false));
+  ++divergence_;
+  head += ray_outputs();
+  line(fmt::format("{} ({}) {{", traverse ? "traverse" : "gather", head));
+  ++loops_;
+  block(1 + static_cast<int>(choose_.below(4)));
+  if (choose_.chance(50)) {
+    line("} else {");
+    block(1 + static_cast<int>(choose_.below(3)));
+  }
+  --loops_;
+  --divergence_;
+  line("}");
+}
+
 void ProgramWriter::print() {
   // Some texts only: a print in every round of every point would be most of the work. How often a light runs
   // is nobody's business.
@@ -195,7 +268,7 @@ void ProgramWriter::call_statement() {
 void ProgramWriter::statement() {
   if (statements_left_-- <= 0 || choose_.at_end()) return;
   bool deep = nesting_ >= kNesting;
-  switch (choose_.below(14)) {
+  switch (choose_.below(15)) {
   case 0:
   case 1:
   case 2: return assignment();
@@ -210,6 +283,7 @@ void ProgramWriter::statement() {
   case 11: return deep ? assignment() : illuminance();
   case 12: return print();
   case 13: return nested_function();
+  case 14: return rays();
   }
 }
 

@@ -56,6 +56,9 @@ private:
   void loop();
   void jump();
   void illuminance();
+  void rays();
+  std::string ray_outputs();
+  std::string ray_function();
   void print();
   void nested_function();
   void call_statement();

@@ -50,13 +50,14 @@ TEST_F(MachineTest, WrongParametersAreNamed) {
 }
 
 TEST_F(MachineTest, WhatTheBuildCannotServeIsNamedAtBinding) {
-  auto shader = machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = trace(P, N); }"));
+  auto shader =
+      machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = caustic(P, N); }"));
   ASSERT_TRUE(shader);
   std::vector<ParamValue> map{{"map", {Type::kString, 0, {}, {"brick.tx"}}}};
   auto traced = machine.instantiate(*shader, map);
   ASSERT_FALSE(traced);
-  EXPECT_EQ(traced.error(), "surface \"s\" calls 'trace', which this build cannot serve");
-  EXPECT_TRUE(machine.instantiate(*shader, {})); // the default needs no rays
+  EXPECT_EQ(traced.error(), "surface \"s\" calls 'caustic', which this build cannot serve");
+  EXPECT_TRUE(machine.instantiate(*shader, {})); // the default needs no photons
 }
 
 TEST_F(MachineTest, PointParametersAreInShaderSpace) {
@@ -122,7 +123,7 @@ TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
 
 TEST_F(MachineTest, ValuesAreNotSentToLightsThatCannotRunWithThem) {
   auto light = instantiate(machine, "light l(float w = 1; float traced = 0;) { illuminate (point (0, 0, 0)) {"
-                                    " Cl = w; if (traced == 1) Cl *= trace(Ps, L); } }");
+                                    " Cl = w; if (traced == 1) Cl *= caustic(Ps, Ns); } }");
   services.light_list = {light.get()};
   auto surface = instantiate(machine, "surface s() { illuminance (P, \"send:light:w\", 5) Ci = Cl; }");
   Grid grid = square(3, 1);
@@ -132,7 +133,7 @@ TEST_F(MachineTest, ValuesAreNotSentToLightsThatCannotRunWithThem) {
   EXPECT_THAT(red(grid), Each(1.0f));
   ASSERT_EQ(machine.messages().size(), 1u);
   EXPECT_EQ(machine.messages()[0].text,
-            "no values can be sent to it: light \"l\" calls 'trace', which this build cannot serve");
+            "no values can be sent to it: light \"l\" calls 'caustic', which this build cannot serve");
   EXPECT_EQ(machine.messages()[0].times, 1u);
 }
 

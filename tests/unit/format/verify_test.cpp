@@ -100,6 +100,17 @@ const Case kCases[] = {
      "a light loop in a light"},
     {"ConeInSurface", ir::cone_light, [](Program& p) { p.kind = ShaderKind::kSurface; },
      "a light cone in a shader that is no light"},
+    {"RaysOfNoCall", ir::gather_loop,
+     [](Program& p) {
+       for (ShadeopId& id : p.imports)
+         if (shadeop(id).name == "gather") id = shadeop_overloads("traverse")[0]; // takes other operands
+     },
+     "operands do not fit 'traverse'"},
+    {"LoopOverNoRays", ir::arithmetic,
+     [](Program& p) {
+       p.code.insert(p.code.begin(), {static_cast<uint32_t>(Opcode::k_gather) | 2u << 16, 0, 0});
+     },
+     "a loop over the rays of no call"},
     // Operands.
     {"RegisterOutOfBounds", ir::while_loop, [](Program& p) { p.strip_planes = 1; },
      "a register out of bounds"},

@@ -95,6 +95,27 @@ TEST(Emit, QuestionsToTheSceneDoNotCutStripBlocks) {
   EXPECT_EQ(text.find("strip ->"), text.rfind("strip ->")) << text;
 }
 
+TEST(Emit, LoopsOverRaysAreACallAndABracket) {
+  std::string text = disassemble(compile(gather_loop()));
+  const size_t call = text.find("gather \"\", P, N"), loop = text.find("gather ->"),
+               break_out = text.find("break 1");
+  EXPECT_LT(call, loop) << text;
+  EXPECT_LT(loop, break_out);
+  EXPECT_NE(text.find("gatherhit"), std::string::npos);
+  EXPECT_NE(text.find("= gathered \"surface:Ci\""), std::string::npos);
+  EXPECT_THAT(text, HasSubstr(", 1")); // lanes leave early
+}
+
+TEST(Emit, LoopsThatNobodyLeavesTraceAhead) {
+  Module m = gather_loop();
+  for (Inst& inst : m.insts)
+    if (inst.op == Op::kBreak) inst = {Op::kYield, 0, {}, inst.args, {}, {}};
+  std::string text = disassemble(compile(m));
+  const size_t loop = text.find("gather ->");
+  ASSERT_NE(loop, std::string::npos);
+  EXPECT_EQ(text.substr(text.find(',', loop), 3), ", 0") << text;
+}
+
 TEST(Emit, DefaultsAreSectionsOfTheirOwn) {
   Program program = compile(computed_default());
   ASSERT_EQ(program.sections.size(), 2u);

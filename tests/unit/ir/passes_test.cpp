@@ -439,6 +439,43 @@ TEST(InferDetail, DivergenceMakesCarriedValuesVarying) {
   EXPECT_TRUE(divergent.varying(out[0]));
 }
 
+TEST(InferDetail, RaysMakeVaryingWhatTheirLoopsCarry) {
+  Sketch s;
+  std::vector<ValueId> args{s.b.string(""),
+                            s.b.triple(Type::kPoint, 0, 0, 0),
+                            s.b.triple(Type::kVector, 0, 0, 1),
+                            s.number(0),
+                            s.number(4),
+                            s.number(0)};
+  std::vector<Region> body;
+  body.push_back(s.region({Type::kFloat}, [&](const std::vector<ValueId>& carried) {
+    s.b.next_round(0, {s.add(carried[0], s.number(1))});
+  }));
+  const Type type = Type::kFloat;
+  InstId id = s.b.region_inst(Op::kGather, shadeop_overloads("gather")[0], args, std::move(body),
+                              std::span(&type, 1));
+  const ValueId sum = s.m.insts[id].results[0];
+  s.store("Ci", s.b.call("convert", "color(float x)", {sum}));
+  Module m = s.finish();
+  infer_detail(m);
+  EXPECT_TRUE(m.varying(sum));
+}
+
+TEST(RemoveDead, LoopsOverRaysThatNobodyNeedsShootNone) {
+  Module m = gather_loop();
+  for (Inst& inst : m.insts)
+    if (inst.op == Op::kStore) inst.args[0] = m.insts[m.body.body[0]].results[0];
+  auto loops = [&] {
+    size_t count = 0;
+    for_each_inst(m, m.body, [&](InstId id) { count += m.insts[id].op == Op::kGather; });
+    return count;
+  };
+  EXPECT_EQ(loops(), 1u);
+  while (remove_dead(m)) {
+  }
+  EXPECT_EQ(loops(), 0u);
+}
+
 TEST(InferDetail, UniformLoopsStayUniform) {
   Module m = array_sum();
   infer_detail(m);

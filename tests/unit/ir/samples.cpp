@@ -161,6 +161,39 @@ Module illuminance_loop() {
   return s.finish();
 }
 
+Module gather_loop() {
+  Sketch s;
+  ValueId n = s.b.retype(Type::kVector, s.read("N"));
+  std::vector<ValueId> args{s.b.string(""),
+                            s.read("P"),
+                            n,
+                            s.number(1.5f),
+                            s.number(16),
+                            s.b.string("surface:Ci"),
+                            s.b.triple(Type::kColor, 0, 0, 0),
+                            s.number(0)};
+  std::vector<Region> body;
+  body.push_back(s.region({Type::kFloat}, [&](const std::vector<ValueId>& carried) {
+    const Type boolean = Type::kBool, colour = Type::kColor;
+    ValueId hit = s.b.call(shadeop_overloads("gatherhit")[0], {}, std::span(&boolean, 1))[0];
+    std::vector<ValueId> asked{s.b.string("surface:Ci"), s.b.triple(Type::kColor, 0, 0, 0)};
+    ValueId seen = s.b.call(shadeop_overloads("gathered")[0], asked, std::span(&colour, 1))[0];
+    std::vector<ValueId> sum = s.branch(
+        hit, {Type::kFloat},
+        [&] {
+          ValueId red = s.b.call("comp", "float(color c, float i)", {seen, s.number(0)});
+          s.b.yield({s.add(carried[0], red)});
+        },
+        [&] { s.b.break_out(0, {carried[0]}); });
+    s.b.next_round(0, {sum[0]});
+  }));
+  const Type type = Type::kFloat;
+  InstId id = s.b.region_inst(Op::kGather, shadeop_overloads("gather")[0], std::move(args), std::move(body),
+                              std::span(&type, 1));
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.m.insts[id].results[0]}));
+  return s.finish();
+}
+
 Module cone_light() {
   Sketch s(ShaderKind::kLight, "cone");
   for (const char* name : {"L", "Ps", "Ns"})
@@ -215,6 +248,7 @@ std::vector<std::pair<std::string, Module>> samples() {
   list.emplace_back("nested_exits", nested_exits());
   list.emplace_back("array_sum", array_sum());
   list.emplace_back("illuminance_loop", illuminance_loop());
+  list.emplace_back("gather_loop", gather_loop());
   list.emplace_back("cone_light", cone_light());
   list.emplace_back("computed_default", computed_default());
   list.emplace_back("messages", messages());

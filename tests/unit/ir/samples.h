@@ -76,6 +76,7 @@ Program compile(Module m, int level = 2);
 /// All samples: name, module.
 std::vector<std::pair<std::string, Module>> samples();
 
+Module gather_loop();    ///< a loop over rays with an output, a break and both blocks
 Module arithmetic();     ///< straight-line code with constants and a retype
 Module varying_branch(); ///< an if whose branches store and yield
 Module while_loop();     ///< while (x < 8) x += x

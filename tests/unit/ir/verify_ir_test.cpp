@@ -189,6 +189,21 @@ const Case kCases[] = {
     {"CategoryOfAnotherType", illuminance_loop,
      [](Module& m) { first(m, Op::kIlluminance).args[0] = first(m, Op::kIlluminance).args[3]; },
      "a value of the wrong type"},
+    {"RaysOfAnotherFunction", gather_loop,
+     [](Module& m) { first(m, Op::kGather).index = shadeop_overloads("trace")[0]; },
+     "a loop over the rays of no call"},
+    {"RaysWithoutDirection", gather_loop,
+     [](Module& m) {
+       auto& args = first(m, Op::kGather).args;
+       args.erase(args.begin() + 2);
+     },
+     "operands do not fit 'gather'"},
+    {"RaysCarryAnotherType", gather_loop,
+     [](Module& m) {
+       auto& args = first(m, Op::kGather).args;
+       args.back() = args[0];
+     },
+     "a value of the wrong type"},
 };
 
 INSTANTIATE_TEST_SUITE_P(VerifyModule, Corruption, testing::ValuesIn(kCases),

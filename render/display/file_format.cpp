@@ -1,0 +1,81 @@
+// Choice of formats, and their attributes.
+#include "render/display/file_format.h"
+
+#include "render/rib/parameters.h"
+#include "render/texture/image_module.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace render {
+
+namespace fs = std::filesystem;
+
+slvm::Result<FileFormat> choose_format(const DisplayRequest& d) {
+  std::string extension = fs::path(d.name).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  auto known = [](const std::string& name) {
+    if (name == "tif" || name == "tiff" || name == "png") return true;
+    const ImageModule& module = image_module();
+    return module.problem.empty() && module.knows_format(name);
+  };
+  const std::string& t = d.type;
+  if (t == "tiff" || t == "tif") return FileFormat{"tiff", "tif"};
+  if (t == "png") return FileFormat{"png", "png"};
+  if (t == "openexr" || t == "exr") return FileFormat{"openexr", "exr"};
+  if (t == "zfile" || t == "shadow") return FileFormat{"tiff", "z"};
+  if (t == "file" || t == "framebuffer" || t == "it") {
+    if (!extension.empty() && known(extension))
+      return FileFormat{extension == "tif" ? "tiff" : extension, extension};
+    return FileFormat{"tiff", "tif"};
+  }
+  if (known(t)) return FileFormat{t, t};
+  return slvm::Error{
+      fmt::format("unknown type \"{}\"; expected \"tiff\", \"png\", \"openexr\", \"file\", \"null\" or "
+                  "another format of OpenImageIO",
+                  t)};
+}
+
+PixelType pixel_type(const Quantization& q, const std::string& plugin) {
+  bool integers_only = plugin == "png" || plugin == "jpeg" || plugin == "bmp" || plugin == "targa";
+  bool floats_only = plugin == "openexr" || plugin == "hdr";
+  if (floats_only || (q.is_float() && !integers_only)) return PixelType::kFloat;
+  if (q.is_float()) return PixelType::kShort;
+  if (q.min >= 0 && q.max <= 255) return PixelType::kByte;
+  if (q.min >= 0 && q.max <= 65535) return PixelType::kShort;
+  return PixelType::kFloat;
+}
+
+std::vector<std::string_view> compressions(const std::string& plugin) {
+  if (plugin == "tiff") return {"none", "lzw", "zip", "packbits", "ccittrle"};
+  if (plugin == "openexr")
+    return {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+  return {};
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+void add_parameters(const DisplayRequest& d, ImageFile& file) {
+  for (const auto& [name, value] : d.params) {
+    if (name == "compression") {
+      auto known = compressions(file.format);
+      std::string wanted = lower_case(value.strings[0]);
+      if (std::find(known.begin(), known.end(), wanted) != known.end()) file.compression = wanted;
+    } else if (name == "resolution") {
+      file.attributes["XResolution"] = {slvm::Type::kFloat, 0, {value.numbers[0]}, {}};
+      file.attributes["YResolution"] = {slvm::Type::kFloat, 0, {value.numbers[1]}, {}};
+      file.attributes["ResolutionUnit"] = {slvm::Type::kString, 0, {}, {"in"}};
+    } else if (!find_parameter(RequestId::kDisplay, "", name)) {
+      file.attributes[name] = value;
+    }
+  }
+}
+
+} // namespace render

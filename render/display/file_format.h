@@ -1,0 +1,33 @@
+// Formats of image files: which one a Display means, what its pixels are, what its parameters say to it.
+#pragma once
+
+#include "render/state/options.h"
+#include "render/texture/image_file.h"
+#include "slvm/support/result.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace render {
+
+struct FileFormat {
+  std::string plugin; ///< OpenImageIO's name
+  std::string extension;
+};
+
+/// The format of a Display type. Interactive types of other renderers become files.
+slvm::Result<FileFormat> choose_format(const DisplayRequest&);
+
+/// What a channel becomes: quantised integers or floats.
+PixelType pixel_type(const Quantization&, const std::string& plugin);
+
+/// The compressions a format has, in lower case; empty: it has its own and no choice.
+std::vector<std::string_view> compressions(const std::string& plugin);
+
+std::string lower_case(std::string text);
+
+/// "compression", "resolution", and whatever nobody here knows, for the format to read.
+void add_parameters(const DisplayRequest&, ImageFile&);
+
+} // namespace render

@@ -1,0 +1,20 @@
+// The functions of the module anemone_images.so, as render/texture/image_module.h describes them. Nothing
+// else of the renderer uses OpenImageIO.
+#pragma once
+
+#include "render/texture/image_module.h"
+
+namespace render::oiio {
+
+std::unique_ptr<ImageLookups> make_lookups(float memory_megabytes);
+bool knows_format(const std::string& name);
+std::string write_image(const ImageFile&);
+std::string read_depth(const std::string& path, DepthImage&);
+std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings&);
+std::string make_bump(const std::string& image, const std::string& bump, const MakeSettings&);
+std::string make_latlong(const std::string& image, const std::string& texture, const MakeSettings&);
+std::string make_cube_environment(const std::array<std::string, 6>& faces, const std::string& texture,
+                                  float fov, const MakeSettings&);
+std::string make_shadow(const std::string& depths, const std::string& shadow);
+
+} // namespace render::oiio

@@ -1,0 +1,384 @@
+// Embree: a top-level scene with one user-defined primitive an item. Embree calls back for a ray that reaches
+// an item's box; the callback has the item's faces made, if need be, and goes on tracing in their scene. That
+// Embree's own instances are not used makes the world lazy: an item no ray comes near is never tessellated,
+// and items can be dropped and made again while the world stays as it is.
+#include "render/rays/embree_world.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cmath>
+#include <tuple>
+
+namespace render {
+
+namespace {
+
+#if RTC_VERSION_MAJOR >= 4
+using QueryContext = RTCRayQueryContext;
+void init_context(QueryContext& c) {
+  rtcInitRayQueryContext(&c);
+}
+constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+void allow_filter(RTCGeometry g) {
+  rtcSetGeometryEnableFilterFunctionFromArguments(g, true);
+}
+void intersect(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRayHit& ray) {
+  RTCIntersectArguments a;
+  rtcInitIntersectArguments(&a);
+  a.context = &c;
+  a.filter = filter;
+  rtcIntersect1(scene, &ray, &a);
+}
+void occluded(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRay& ray) {
+  RTCOccludedArguments a;
+  rtcInitOccludedArguments(&a);
+  a.context = &c;
+  a.filter = filter;
+  rtcOccluded1(scene, &ray, &a);
+}
+#else
+using QueryContext = RTCIntersectContext;
+void init_context(QueryContext& c) {
+  rtcInitIntersectContext(&c);
+}
+constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+void allow_filter(RTCGeometry) {}
+void intersect(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRayHit& ray) {
+  c.filter = filter;
+  rtcIntersect1(scene, &c, &ray);
+}
+void occluded(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRay& ray) {
+  c.filter = filter;
+  rtcOccluded1(scene, &c, &ray);
+}
+#endif
+
+class EmbreeFaces final : public FaceScene {
+public:
+  explicit EmbreeFaces(RTCScene s) : scene(s) {}
+  ~EmbreeFaces() override { rtcReleaseScene(scene); }
+  RTCScene scene;
+};
+
+RTCScene faces_of(const FaceScene* faces) {
+  return static_cast<const EmbreeFaces*>(faces)->scene;
+}
+
+/// Builds run on all processors; while this thread waits for them it must not take up other work of the
+/// renderer, which could wait for what is being built here.
+void commit(RTCScene scene) {
+  tbb::this_task_arena::isolate([&] { rtcCommitScene(scene); });
+}
+
+/// Hits of two faces of a surface that differ by less, relative to the distance, are one at the edge between
+/// them.
+constexpr float kSamePlace = 2e-6f;
+
+} // namespace
+
+struct RayDevice::Impl {
+  RTCDevice device = rtcNewDevice(nullptr);
+  std::atomic<int64_t> bytes{0};
+};
+
+RayDevice::RayDevice() : impl_(std::make_unique<Impl>()) {
+  rtcSetDeviceMemoryMonitorFunction(
+      impl_->device,
+      [](void* user, ssize_t bytes, bool) {
+        static_cast<Impl*>(user)->bytes.fetch_add(bytes, std::memory_order_relaxed);
+        return true;
+      },
+      impl_.get());
+}
+RayDevice::~RayDevice() {
+  rtcReleaseDevice(impl_->device);
+}
+size_t RayDevice::bytes() const {
+  return static_cast<size_t>(std::max<int64_t>(impl_->bytes, 0));
+}
+
+std::unique_ptr<const FaceScene> RayDevice::build(const QuadMesh& mesh) const {
+  if (mesh.faces.empty()) return nullptr;
+  RTCScene scene = rtcNewScene(impl_->device);
+  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilterFlag));
+  RTCGeometry g = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_QUAD);
+  allow_filter(g);
+  size_t points = mesh.points.size() / mesh.times;
+  rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(mesh.times));
+  for (size_t t = 0; t < mesh.times; ++t) {
+    auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(
+        g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(t), RTC_FORMAT_FLOAT3, 3 * sizeof(float), points));
+    for (size_t i = 0; i < points; ++i)
+      for (int c = 0; c < 3; ++c)
+        *to++ = mesh.points[t * points + i][c];
+  }
+  auto* index = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
+                                                               4 * sizeof(uint32_t), mesh.faces.size()));
+  for (const auto& face : mesh.faces)
+    index = std::copy(face.begin(), face.end(), index);
+  rtcCommitGeometry(g);
+  rtcAttachGeometry(scene, g);
+  rtcReleaseGeometry(g);
+  commit(scene);
+  return std::make_unique<EmbreeFaces>(scene);
+}
+
+struct RayWorld::Impl {
+  std::vector<WorldItem> items;
+  ItemFaces& source;
+  RTCScene top;
+
+  const FaceScene* faces(uint32_t item) const { return source.faces(item); }
+};
+
+namespace {
+
+/// One ray on its way. The outer context goes through the top level, the inner one through the faces of an
+/// item; both are the beginning of this, so that callbacks find it.
+struct Query {
+  struct Outer : QueryContext {
+    Query* query;
+  } outer;
+  struct Inner : QueryContext {
+    Query* query;
+  } inner;
+  const RayRule& rule;
+  const ItemFaces* faces;
+  const slvm::RayCursor* behind = nullptr;
+  const uint8_t* solid = nullptr;
+  std::vector<RayHit>* list = nullptr;
+  size_t most = 0;
+  uint32_t item = 0; ///< being looked at
+  uint32_t hit_item = 0;
+  bool needs_front = false, needs_back = false, flipped = false; ///< in that item
+
+  Query(const RayRule& r, const ItemFaces& f) : rule(r), faces(&f) {
+    init_context(outer);
+    init_context(inner);
+    outer.query = this;
+    inner.query = this;
+  }
+
+  /// False: no face of the item counts.
+  bool enter(const WorldItem& it, uint32_t index) {
+    if (rule.seen && !rule.seen[index]) return false;
+    item = index;
+    needs_front = it.one_sided || rule.sides == slvm::HitSides::kFront;
+    needs_back = rule.sides == slvm::HitSides::kBack;
+    flipped = it.flipped;
+    return !(needs_front && needs_back);
+  }
+  bool keeps(const RTCRay& ray, const RTCHit& hit) {
+    if (needs_front || needs_back) {
+      // Embree's normals of quadrilaterals are along (first side) x (last side).
+      float towards = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z;
+      bool front = (towards < 0) != flipped;
+      if (needs_front ? !front : front) return false;
+    }
+    if (behind && !is_behind(ray.tfar, hit.primID)) return false;
+    if (!list || (solid && solid[item])) return true;
+    if (list->size() < most) list->push_back({ray.tfar, item, hit.primID, hit.u, hit.v});
+    return list->size() >= most;
+  }
+  bool is_behind(float distance, uint32_t face) const {
+    if (behind->primitive == item && std::abs(distance - behind->distance) <= kSamePlace * distance &&
+        (behind->face == face || faces->same_surface(item, face, behind->face)))
+      return false;
+    return std::tie(distance, item, face) > std::tie(behind->distance, behind->primitive, behind->face);
+  }
+  bool filters() const { return needs_front || needs_back || behind || list; }
+};
+
+Query& query_of(const void* context, bool inner) {
+  return inner ? *static_cast<const Query::Inner*>(context)->query
+               : *static_cast<const Query::Outer*>(context)->query;
+}
+
+void filter_hit(const RTCFilterFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& q = query_of(args->context, true);
+  const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  if (!q.keeps(ray, hit)) args->valid[0] = 0;
+}
+
+void set_ray(RTCRay& out, const RaySegment& ray) {
+  out.org_x = ray.origin.x;
+  out.org_y = ray.origin.y;
+  out.org_z = ray.origin.z;
+  out.dir_x = ray.direction.x;
+  out.dir_y = ray.direction.y;
+  out.dir_z = ray.direction.z;
+  out.tnear = ray.nearest;
+  out.tfar = ray.farthest;
+  out.time = ray.time;
+  out.mask = ~0u;
+  out.id = 0;
+  out.flags = 0;
+}
+
+/// The ray in the space of an item. Its direction is not brought to length 1, so that distances stay.
+RTCRay place(const RTCRay& ray, const Matrix4& m) {
+  RTCRay out = ray;
+  Vec3 o = transform_point(m, Vec3(ray.org_x, ray.org_y, ray.org_z)),
+       d = transform_vector(m, Vec3(ray.dir_x, ray.dir_y, ray.dir_z));
+  out.org_x = o.x;
+  out.org_y = o.y;
+  out.org_z = o.z;
+  out.dir_x = d.x;
+  out.dir_y = d.y;
+  out.dir_z = d.z;
+  return out;
+}
+
+void intersect_item(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& q = query_of(args->context, false);
+  const auto& world = *static_cast<const RayWorld::Impl*>(args->geometryUserPtr);
+  const WorldItem& item = world.items[args->primID];
+  if (!q.enter(item, args->primID)) return;
+  const FaceScene* faces = world.faces(args->primID);
+  if (!faces) return;
+  auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  float before = ray.ray.tfar;
+  RTCFilterFunctionN filter = q.filters() ? filter_hit : nullptr;
+  if (item.placed) {
+    RTCRayHit local{place(ray.ray, item.to_item), ray.hit};
+    intersect(faces_of(faces), q.inner, filter, local);
+    ray.ray.tfar = local.ray.tfar;
+    ray.hit = local.hit;
+  } else {
+    intersect(faces_of(faces), q.inner, filter, ray);
+  }
+  if (ray.ray.tfar < before) q.hit_item = args->primID;
+}
+
+void occlude_item(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& q = query_of(args->context, false);
+  const auto& world = *static_cast<const RayWorld::Impl*>(args->geometryUserPtr);
+  const WorldItem& item = world.items[args->primID];
+  if (!q.enter(item, args->primID)) return;
+  const FaceScene* faces = world.faces(args->primID);
+  if (!faces) return;
+  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  RTCFilterFunctionN filter = q.filters() ? filter_hit : nullptr;
+  if (item.placed) {
+    RTCRay local = place(ray, item.to_item);
+    occluded(faces_of(faces), q.inner, filter, local);
+    ray.tfar = local.tfar;
+  } else {
+    occluded(faces_of(faces), q.inner, filter, ray);
+  }
+}
+
+void bound_item(const RTCBoundsFunctionArguments* args) {
+  const Box& box = static_cast<const RayWorld::Impl*>(args->geometryUserPtr)->items[args->primID].bounds;
+  RTCBounds& out = *args->bounds_o;
+  out.lower_x = box.min.x;
+  out.lower_y = box.min.y;
+  out.lower_z = box.min.z;
+  out.upper_x = box.max.x;
+  out.upper_y = box.max.y;
+  out.upper_z = box.max.z;
+}
+
+/// Rays that are not numbers hit nothing.
+bool is_usable(const RaySegment& ray) {
+  float sum =
+      ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y + ray.direction.z;
+  return std::isfinite(sum) && ray.nearest <= ray.farthest && glm::dot(ray.direction, ray.direction) > 0;
+}
+
+} // namespace
+
+RayWorld::RayWorld(const RayDevice& device, std::vector<WorldItem> items, ItemFaces& faces)
+    : impl_(new Impl{std::move(items), faces, nullptr}) {
+  RTCDevice d = device.impl().device;
+  impl_->top = rtcNewScene(d);
+  rtcSetSceneFlags(impl_->top, RTC_SCENE_FLAG_ROBUST);
+  if (!impl_->items.empty()) {
+    RTCGeometry g = rtcNewGeometry(d, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(g, static_cast<unsigned>(impl_->items.size()));
+    rtcSetGeometryUserData(g, impl_.get());
+    rtcSetGeometryBoundsFunction(g, bound_item, nullptr);
+    rtcSetGeometryIntersectFunction(g, intersect_item);
+    rtcSetGeometryOccludedFunction(g, occlude_item);
+    rtcCommitGeometry(g);
+    rtcAttachGeometry(impl_->top, g);
+    rtcReleaseGeometry(g);
+  }
+  commit(impl_->top);
+}
+
+RayWorld::~RayWorld() {
+  rtcReleaseScene(impl_->top);
+}
+
+namespace {
+
+/// Of several surfaces in the same place the one that comes first in order, or a cursor would pass others by.
+void take_first(RTCScene top, const RayRule& rule, const ItemFaces& faces, RaySegment segment,
+                const slvm::RayCursor* behind, RayHit& hit) {
+  std::vector<RayHit> same;
+  Query q(rule, faces);
+  q.behind = behind;
+  q.list = &same;
+  q.most = 64;
+  segment.nearest = hit.distance * (1 - kSamePlace);
+  segment.farthest = hit.distance * (1 + kSamePlace);
+  RTCRay ray{};
+  set_ray(ray, segment);
+  occluded(top, q.outer, nullptr, ray);
+  for (const RayHit& h : same)
+    if (std::tie(h.distance, h.item, h.face) < std::tie(hit.distance, hit.item, hit.face)) hit = h;
+}
+
+} // namespace
+
+bool RayWorld::nearest(const RayRule& rule, const RaySegment& segment, const slvm::RayCursor* behind,
+                       RayHit& hit) const {
+  if (!is_usable(segment)) return false;
+  Query q(rule, impl_->source);
+  q.behind = behind && behind->distance > -kInfinity ? behind : nullptr;
+  RTCRayHit ray{};
+  set_ray(ray.ray, segment);
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  intersect(impl_->top, q.outer, nullptr, ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit = {ray.ray.tfar, q.hit_item, ray.hit.primID, ray.hit.u, ray.hit.v};
+  if (behind) take_first(impl_->top, rule, impl_->source, segment, q.behind, hit);
+  return true;
+}
+
+bool RayWorld::any(const RayRule& rule, const RaySegment& segment) const {
+  if (!is_usable(segment)) return false;
+  Query q(rule, impl_->source);
+  RTCRay ray{};
+  set_ray(ray, segment);
+  occluded(impl_->top, q.outer, nullptr, ray);
+  return ray.tfar < 0;
+}
+
+bool RayWorld::all(const RayRule& rule, const RaySegment& segment, const uint8_t* solid, size_t most,
+                   std::vector<RayHit>& hits) const {
+  hits.clear();
+  if (!is_usable(segment)) return false;
+  Query q(rule, impl_->source);
+  q.solid = solid;
+  q.list = &hits;
+  q.most = most;
+  RTCRay ray{};
+  set_ray(ray, segment);
+  occluded(impl_->top, q.outer, nullptr, ray);
+  return ray.tfar < 0 && hits.size() < most;
+}
+
+} // namespace render

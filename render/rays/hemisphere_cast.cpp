@@ -1,0 +1,113 @@
+// Shooting the rays of a HemisphereSampler.
+#include "render/rays/hemisphere_rays.h"
+
+#include <cmath>
+
+namespace render {
+
+/// Where it is enough to know whether there is anything.
+void HemisphereSampler::cast_blocked(std::span<const HemispherePoint> points, Rays& rays) {
+  RayGeometry& g = tracer_.geometry();
+  RayRule rule{g.seen(query_.rays.kind, query_.rays.subset), query_.rays.sides};
+  slvm::RayBatch batch;
+  for (int c = 0; c < 3; ++c) {
+    batch.origin[c] = rays.origin[c].data();
+    batch.direction[c] = rays.direction[c].data();
+  }
+  batch.max_distance = rays.max_distance.data();
+  batch.bias = rays.bias.data();
+  batch.point = rays.point.data();
+  batch.sample = rays.sample.data();
+  {
+    auto tracing = g.tracing();
+    for (size_t i = 0; i < rays.size(); ++i)
+      if (g.world().any(rule, tracer_.segment(shooter_, query_.rays, batch, i))) {
+        rays.cell[i]->blocked = 1;
+        rays.cell[i]->distance = points[rays.index[i]].max_distance; // any number
+      }
+  }
+  for (Cell* cell : rays.cell)
+    if (cell->blocked > 0 && cell->distance == kInfinity) cell->distance = 1;
+  g.trim();
+}
+
+void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays) {
+  tracer_.hemisphere_rays_ += rays.size();
+  if (!interpolated_ && !wants_light_ && query_.falloff == 0 && pattern_.blocks() == pattern_.cells())
+    cast_blocked(points, rays);
+  else {
+    slvm::RayBatch batch;
+    batch.count = rays.size();
+    slvm::RayOutput light;
+    light.from = slvm::RayOutput::From::kShaded;
+    light.name = "Ci";
+    light.type = slvm::Type::kColor;
+    std::vector<float> colours(3 * rays.size());
+    light.data = colours.data();
+    light.pitch = rays.size();
+    for (int c = 0; c < 3; ++c) {
+      batch.origin[c] = rays.origin[c].data();
+      batch.direction[c] = rays.direction[c].data();
+      batch.origin_du[c] = batch.origin_dv[c] = rays.still[c].data();
+      batch.direction_du[c] = rays.direction_du[c].data();
+      batch.direction_dv[c] = rays.direction_dv[c].data();
+      if (query_.weight[c]) batch.weight[c] = rays.weight[c].data();
+    }
+    batch.max_distance = rays.max_distance.data();
+    batch.bias = rays.bias.data();
+    batch.point = rays.point.data();
+    batch.sample = rays.sample.data();
+    rays.distance.resize(rays.size());
+    tracer_.trace_by(shooter_, query_.rays, batch, {&light, wants_light_ ? size_t{1} : size_t{0}},
+                     rays.distance.data(), nullptr);
+    tracer_.rays_ -= rays.size();
+    for (size_t i = 0; i < rays.size(); ++i) {
+      Cell& cell = *rays.cell[i];
+      float d = rays.distance[i];
+      cell.distance = d == slvm::kNotShot ? kInfinity : d;
+      cell.blocked = blocked_by(points[rays.index[i]], cell.distance);
+      if (cell.distance < kInfinity)
+        cell.light = {colours[i], colours[rays.size() + i], colours[2 * rays.size() + i]};
+    }
+  }
+  if (wants_map_) look_up_map(rays);
+}
+
+void HemisphereSampler::look_up_map(Rays& rays) {
+  slvm::TextureServices* textures = tracer_.services_.textures();
+  if (!textures) {
+    problem_ = "there are no textures here";
+    return;
+  }
+  slvm::TextureLookup lookup;
+  lookup.map = query_.environment_map;
+  lookup.channels = 3;
+  lookup.points = rays.size();
+  std::vector<uint64_t> mask(rays.size() / 64 + 1);
+  std::vector<float> result[3];
+  for (size_t i = 0; i < rays.size(); ++i) {
+    if (rays.cell[i]->distance == kInfinity) mask[i / 64] |= uint64_t{1} << (i % 64);
+    Vec3 planes[3];
+    const std::vector<float>* from[3] = {rays.direction, rays.direction_du, rays.direction_dv};
+    for (size_t k = 0; k < 3; ++k)
+      planes[k] = transform_vector(to_map_, Vec3(from[k][0][i], from[k][1][i], from[k][2][i]));
+    for (int c = 0; c < 3; ++c) {
+      lookup.centre[c].push_back(planes[0][c]);
+      lookup.along_u[c].push_back(planes[1][c]);
+      lookup.along_v[c].push_back(planes[2][c]);
+    }
+  }
+  lookup.mask = mask.data();
+  for (size_t c = 0; c < 3; ++c) {
+    result[c].resize(rays.size());
+    lookup.result[c] = result[c].data();
+  }
+  if (std::string why = textures->environment(lookup); !why.empty()) problem_ = why;
+  for (size_t i = 0; i < rays.size(); ++i)
+    if (lookup.active(i)) {
+      rays.cell[i]->map = {result[0][i], result[1][i], result[2][i]};
+      rays.cell[i]->light = rays.cell[i]->map;
+    }
+}
+
+} // namespace render

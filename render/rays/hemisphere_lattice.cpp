@@ -1,0 +1,236 @@
+// Lines and cells of a lattice.
+#include "render/rays/hemisphere_lattice.h"
+
+#include <cmath>
+
+namespace render {
+
+namespace {
+
+/// Lines and cells of fewer steps are interpolated without a look at their middles.
+constexpr int kVerified = 4;
+constexpr size_t kValues = HemisphereSample::kValues, kGradients = HemisphereSample::kGradients;
+
+HemisphereSample blend(const HemisphereSample& a, const HemisphereSample& b, float t) {
+  HemisphereSample out;
+  for (size_t i = 0; i < kValues; ++i)
+    out.value[i] = a.value[i] + (b.value[i] - a.value[i]) * t;
+  for (size_t i = 0; i < kGradients; ++i) {
+    out.move[i] = a.move[i] + (b.move[i] - a.move[i]) * t;
+    out.turn[i] = a.turn[i] + (b.turn[i] - a.turn[i]) * t;
+  }
+  // The distances of both, weighted by nearness.
+  float near_a = 1 / a.distance, near_b = 1 / b.distance;
+  out.distance = 1 / (near_a + (near_b - near_a) * t);
+  return out;
+}
+
+class Lattice {
+public:
+  explicit Lattice(const LatticeProblem& p) : p_(p), samples_(p.points.size()), known_(p.points.size()) {}
+
+  std::vector<HemisphereSample> run() {
+    int u = p_.nu - 1, v = p_.nv - 1;
+    for (int corner : {0, u, v * p_.nu, v * p_.nu + u})
+      take(corner);
+    line(0, 1, u);
+    line(v * p_.nu, 1, u);
+    line(0, p_.nu, v);
+    line(u, p_.nu, v);
+    cell(0, 0, u, v);
+    return std::move(samples_);
+  }
+
+private:
+  bool on(int k) const { return p_.mask[k / 64] >> (k % 64) & 1; }
+  const HemispherePoint& point(int k) const { return p_.points[static_cast<size_t>(k)]; }
+  HemisphereSample& at(int k) { return samples_[static_cast<size_t>(k)]; }
+
+  void take(int k) {
+    if (known_[static_cast<size_t>(k)]) return;
+    known_[static_cast<size_t>(k)] = true;
+    if (on(k)) at(k) = p_.sample(point(k));
+  }
+  void set(int k, const HemisphereSample& s) {
+    if (known_[static_cast<size_t>(k)]) return;
+    known_[static_cast<size_t>(k)] = true;
+    at(k) = s;
+  }
+
+  /// How wrong the sample of one point may be at another one.
+  float error(int from, int to) {
+    float turn = std::sqrt(std::max(0.0f, 1 - glm::dot(point(from).N, point(to).N)));
+    return glm::distance(point(from).P, point(to).P) / at(from).distance + turn;
+  }
+
+  /// Values at all points of a line whose ends are known.
+  void line(int first, int stride, int steps) {
+    if (steps < 2) return;
+    int middle = steps / 2, centre = first + stride * middle;
+    bool near = can_interpolate(first, stride, steps);
+    if (near && steps < kVerified) {
+      interpolate(first, stride, steps);
+      return;
+    }
+    if (near) {
+      HemisphereSample expected = on_line(first, stride, steps, middle);
+      take(centre);
+      near = agree(expected, at(centre));
+    } else {
+      take(centre);
+    }
+    if (near) {
+      interpolate(first, stride, middle);
+      interpolate(centre, stride, steps - middle);
+      return;
+    }
+    line(first, stride, middle);
+    line(centre, stride, steps - middle);
+  }
+
+  /// Whether a sample is what was expected, light compared with the brighter of both.
+  bool agree(const HemisphereSample& a, const HemisphereSample& b) const {
+    for (size_t c = 0; c < kGradients; ++c) {
+      float whole = c == 0 ? 1.0f : std::max({a.value[c], b.value[c], 0.1f});
+      if (!(std::abs(a.value[c] - b.value[c]) <= p_.tolerance * whole)) return false;
+    }
+    return true;
+  }
+
+  bool can_interpolate(int first, int stride, int steps) {
+    if (steps > p_.most_steps) return false;
+    int last = first + stride * steps;
+    for (int k = first; k <= last; k += stride)
+      if (!on(k) || (k != first && k != last && !(std::min(error(first, k), error(last, k)) <= p_.max_error)))
+        return false;
+    return true;
+  }
+
+  /// Cubic from both values and the slopes that their gradients give, at a point of the line.
+  HemisphereSample on_line(int first, int stride, int steps, int step) {
+    int last = first + stride * steps;
+    const HemisphereSample &a = at(first), &b = at(last);
+    Vec3 way = point(last).P - point(first).P, turn = glm::cross(point(first).N, point(last).N);
+    float whole = 0, gone = 0;
+    for (int i = 0; i < steps; ++i) {
+      int k = first + stride * i;
+      whole += glm::distance(point(k).P, point(k + stride).P);
+      if (i + 1 == step) gone = whole;
+    }
+    float t = whole > 0 ? gone / whole : static_cast<float>(step) / static_cast<float>(steps), r = 1 - t;
+    HemisphereSample s = blend(a, b, t);
+    for (size_t c = 0; c < kGradients; ++c) {
+      float chord = b.value[c] - a.value[c];
+      auto slope = [&](const HemisphereSample& from) {
+        float m = glm::dot(from.move[c], way) + glm::dot(from.turn[c], turn);
+        // Gradients are estimates: they may not lead far from the values at the ends.
+        float most = 2 * std::max({std::abs(a.value[c]), std::abs(b.value[c]), std::abs(chord)});
+        return std::clamp(m, -most, most);
+      };
+      s.value[c] = std::max(0.0f, s.value[c] + t * r * (r * (slope(a) - chord) - t * (slope(b) - chord)));
+    }
+    s.value[0] = std::min(s.value[0], 1.0f);
+    return s;
+  }
+
+  void interpolate(int first, int stride, int steps) {
+    for (int i = 1; i < steps; ++i)
+      set(first + stride * i, on_line(first, stride, steps, i));
+  }
+
+  /// The inside of a rectangle whose edges are known.
+  void cell(int i0, int j0, int i1, int j1) {
+    if (i1 - i0 < 2 || j1 - j0 < 2) return;
+    if (cell_is_near(i0, j0, i1, j1)) {
+      if (std::min(i1 - i0, j1 - j0) < kVerified) {
+        blend_cell({i0, j0, i1, j1}, nullptr);
+        return;
+      }
+      int i = (i0 + i1) / 2, j = (j0 + j1) / 2;
+      HemisphereSample expected = in_cell({i0, j0, i1, j1}, i, j);
+      take(j * p_.nu + i);
+      if (agree(expected, at(j * p_.nu + i))) {
+        blend_cell({i0, j0, i1, j1}, &expected);
+        return;
+      }
+    }
+    if (i1 - i0 >= j1 - j0) {
+      int i = (i0 + i1) / 2;
+      line(j0 * p_.nu + i, p_.nu, j1 - j0);
+      cell(i0, j0, i, j1);
+      cell(i, j0, i1, j1);
+    } else {
+      int j = (j0 + j1) / 2;
+      line(j * p_.nu + i0, 1, i1 - i0);
+      cell(i0, j0, i1, j);
+      cell(i0, j, i1, j1);
+    }
+  }
+
+  bool cell_is_near(int i0, int j0, int i1, int j1) {
+    if (std::max(i1 - i0, j1 - j0) > p_.most_steps) return false;
+    int corners[4] = {j0 * p_.nu + i0, j0 * p_.nu + i1, j1 * p_.nu + i0, j1 * p_.nu + i1};
+    for (int j = j0; j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i) {
+        int k = j * p_.nu + i;
+        if (!on(k)) return false;
+        float least = kInfinity;
+        for (int corner : corners)
+          least = std::min(least, error(corner, k));
+        if (!(least <= p_.max_error)) return false;
+      }
+    return true;
+  }
+
+  struct Cell {
+    int i0, j0, i1, j1;
+  };
+
+  /// Coons' blend of the four edges at a point inside.
+  HemisphereSample in_cell(const Cell& cell, int i, int j) {
+    auto [i0, j0, i1, j1] = cell;
+    float s = static_cast<float>(i - i0) / static_cast<float>(i1 - i0);
+    float t = static_cast<float>(j - j0) / static_cast<float>(j1 - j0);
+    HemisphereSample across = blend(at(j * p_.nu + i0), at(j * p_.nu + i1), s);
+    HemisphereSample down = blend(at(j0 * p_.nu + i), at(j1 * p_.nu + i), t);
+    HemisphereSample corners = blend(blend(at(j0 * p_.nu + i0), at(j0 * p_.nu + i1), s),
+                                     blend(at(j1 * p_.nu + i0), at(j1 * p_.nu + i1), s), t);
+    HemisphereSample out = blend(across, down, 0.5f);
+    for (size_t c = 0; c < kValues; ++c)
+      out.value[c] = across.value[c] + down.value[c] - corners.value[c];
+    return out;
+  }
+
+  /// `expected`: what the middle would have been; by how much it is not so is spread over the cell.
+  void blend_cell(const Cell& cell, const HemisphereSample* expected) {
+    auto [i0, j0, i1, j1] = cell;
+    const HemisphereSample middle = at((j0 + j1) / 2 * p_.nu + (i0 + i1) / 2);
+    for (int j = j0 + 1; j < j1; ++j)
+      for (int i = i0 + 1; i < i1; ++i) {
+        HemisphereSample out = in_cell(cell, i, j);
+        float part = bulge(i0, i, i1) * bulge(j0, j, j1);
+        for (size_t c = 0; c < kValues; ++c) {
+          if (expected) out.value[c] += part * (middle.value[c] - expected->value[c]);
+          if (c < kGradients) out.value[c] = std::max(0.0f, out.value[c]);
+        }
+        out.value[0] = std::min(out.value[0], 1.0f);
+        set(j * p_.nu + i, out);
+      }
+  }
+  /// A parabola: 0 at the ends, 1 in the middle.
+  static float bulge(int from, int at, int to) {
+    return 4 * static_cast<float>((at - from) * (to - at)) / static_cast<float>((to - from) * (to - from));
+  }
+
+  const LatticeProblem& p_;
+  std::vector<HemisphereSample> samples_;
+  std::vector<bool> known_;
+};
+
+} // namespace
+
+std::vector<HemisphereSample> fill_lattice(const LatticeProblem& problem) {
+  return Lattice(problem).run();
+}
+
+} // namespace render

@@ -1,0 +1,62 @@
+// Shoots the rays of hemisphere queries and sums them up.
+#pragma once
+
+#include "render/rays/hemisphere_pattern.h"
+#include "render/rays/hemisphere_sample.h"
+#include "render/rays/shooter.h"
+
+#include <string>
+
+namespace render {
+
+class HemisphereSampler {
+public:
+  /// `interpolated`: samples are used at other points, too, and need distances and gradients.
+  HemisphereSampler(RayTracer& tracer, const slvm::ShadingState& state, const slvm::HemisphereQuery& query,
+                    bool interpolated);
+
+  /// Whether any rays may be shot.
+  bool may_shoot() const { return shooter_.may_shoot; }
+  void sample(std::span<const HemispherePoint> points, std::span<HemisphereSample> out);
+  /// Stands for everything but the place that a sample depends on.
+  uint64_t call_hash(const HemispherePoint& point) const;
+  /// Why the environment map cannot be looked up, or "".
+  const std::string& problem() const { return problem_; }
+
+private:
+  /// What one ray brought.
+  struct Cell {
+    Vec3 direction{0.0f};
+    float distance = kInfinity, blocked = 0;
+    Color light{0.0f}, map{0.0f};
+    bool shot = false;
+  };
+  struct Rays;
+
+  Vec3 aim(const HemispherePoint& point, uint64_t seed, int cell, Vec3& origin) const;
+  void first_rays(std::span<const HemispherePoint> points, Rays& rays);
+  void more_rays(std::span<const HemispherePoint> points, Rays& rays);
+  void cast(std::span<const HemispherePoint> points, Rays& rays);
+  void cast_blocked(std::span<const HemispherePoint> points, Rays& rays);
+  void look_up_map(Rays& rays);
+  void finish(const HemispherePoint& point, Cell* cells, HemisphereSample& out) const;
+  void spread_blocks(Cell* cells) const;
+  void gradients(const HemispherePoint& point, const Cell* cells, HemisphereSample& out) const;
+  bool differs(const Cell& a, const Cell& b) const;
+  float blocked_by(const HemispherePoint& point, float distance) const;
+  int chosen_cell(int block, uint64_t seed) const;
+  uint64_t seed_of(const HemispherePoint& point) const;
+
+  RayTracer& tracer_;
+  const slvm::ShadingState& state_;
+  const slvm::HemisphereQuery& query_;
+  RayTracer::Shooter shooter_;
+  HemispherePattern pattern_;
+  bool interpolated_, wants_light_, wants_map_;
+  Matrix4 to_map_;
+  uint64_t call_ = 0;
+  std::vector<Cell> cells_; ///< of all points being sampled
+  std::string problem_;
+};
+
+} // namespace render

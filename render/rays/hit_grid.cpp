@@ -1,0 +1,267 @@
+// Dicing hits.
+#include "render/rays/hit_grid.h"
+
+#include "render/prims/motion.h"
+
+#include <cmath>
+
+namespace render {
+
+namespace {
+
+using slvm::Global;
+
+/// The surface is evaluated this far from a hit, at least and at most, in its parameters; what is farther or
+/// nearer is extrapolated.
+constexpr float kLeastStep = 1.0f / 8192, kMostStep = 1.0f / 16;
+/// How far from the ray a hit may be, by its distance: about half a pixel of a usual camera.
+constexpr float kNearEnough = 2e-4f;
+/// Footprints do not grow further at more grazing angles.
+constexpr float kLeastCosine = 0.03f;
+
+Vec3 plane_point(const float* planes, size_t pitch, size_t k) {
+  return {planes[k], planes[pitch + k], planes[2 * pitch + k]};
+}
+void set_point(float* planes, size_t pitch, size_t k, Vec3 p) {
+  for (int c = 0; c < 3; ++c)
+    planes[static_cast<size_t>(c) * pitch + k] = p[c];
+}
+
+/// The (a, b) for which a x + b y is nearest to d.
+Vec2 nearest_combination(Vec3 x, Vec3 y, Vec3 d) {
+  float xx = glm::dot(x, x), xy = glm::dot(x, y), yy = glm::dot(y, y);
+  float dx = glm::dot(d, x), dy = glm::dot(d, y), determinant = xx * yy - xy * xy;
+  if (determinant > 1e-9f * xx * yy) return Vec2(dx * yy - dy * xy, dy * xx - dx * xy) / determinant;
+  // A pole, or an edge fallen together: along the side that is left.
+  if (xx >= yy) return {xx > 0 ? dx / xx : 0.0f, 0};
+  return {0, dy / yy};
+}
+
+/// The point of the surface that lies nearest to `target`, from a place near it: faces are a little off the
+/// surface, and their own parameters off its.
+SurfaceSpot settle(const Primitive& primitive, Vec3 target, float tolerance, float& u, float& v,
+                   SurfaceLattice& scratch) {
+  constexpr int kRounds = 6;
+  SurfaceSpot spot = evaluate_spot(primitive, u, v, scratch);
+  for (int i = 0; i < kRounds && glm::distance(spot.P, target) > tolerance; ++i) {
+    Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, target - spot.P);
+    float longest = std::max(std::abs(step.x), std::abs(step.y));
+    if (!(longest < kInfinity)) break;
+    if (longest > 0.5f) step *= 0.5f / longest;
+    float to_u = std::clamp(u + step.x, 0.0f, 1.0f), to_v = std::clamp(v + step.y, 0.0f, 1.0f);
+    if (std::abs(to_u - u) + std::abs(to_v - v) < 1e-6f) break;
+    SurfaceSpot next = evaluate_spot(primitive, to_u, to_v, scratch);
+    if (glm::distance(next.P, target) > glm::distance(spot.P, target)) break;
+    u = to_u;
+    v = to_v;
+    spot = next;
+  }
+  return spot;
+}
+
+/// A step from `at` within 0 to 1, in the direction there is more room in.
+float step_inside(float at, float wanted) {
+  float step = std::clamp(wanted, kLeastStep, kMostStep);
+  return at + step <= 1 ? step : -step;
+}
+
+} // namespace
+
+SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch) {
+  primitive.geometry->evaluate({&u, 1}, {&v, 1}, scratch);
+  const Matrix4& m = primitive.state->object_to_camera;
+  return {transform_point(m, scratch.P[0]),
+          transform_vector(m, scratch.dPdu[0]),
+          transform_vector(m, scratch.dPdv[0]),
+          {scratch.P[0], scratch.dPdu[0], scratch.dPdv[0], scratch.N[0]}};
+}
+
+Footprint footprint_on(const HitRay& ray, const SurfaceSpot& spot) {
+  Vec3 normal = glm::cross(spot.dPdu, spot.dPdv);
+  float length = glm::length(normal);
+  if (!ray.wide || !(length > 0)) return {};
+  normal /= length;
+  float cosine = glm::dot(ray.direction, normal);
+  if (std::abs(cosine) < kLeastCosine) cosine = std::copysign(kLeastCosine, cosine);
+  auto on_surface = [&](Vec3 origin, Vec3 direction) {
+    Vec3 d = origin + direction * ray.distance;
+    d -= ray.direction * (glm::dot(d, normal) / cosine);
+    return nearest_combination(spot.dPdu, spot.dPdv, d);
+  };
+  Vec2 x = on_surface(ray.origin_dx, ray.direction_dx), y = on_surface(ray.origin_dy, ray.direction_dy);
+  return {x.x, x.y, y.x, y.y};
+}
+
+void HitGrid::find_spots(const Scene& scene, std::span<const HitRay> hits) {
+  moved_.clear();
+  primitives_.clear();
+  spots_.clear();
+  for (const HitRay& hit : hits) {
+    const Primitive* p = &scene.primitives[hit.place.primitive];
+    if (hit.time > 0 && (!p->deformation.empty() || !p->state->motion.empty()))
+      p = &moved_.emplace_back(primitive_at(*p, hit.time));
+    float u = hit.place.u, v = hit.place.v;
+    Vec3 target = hit.origin + hit.direction * hit.distance;
+    // Where faces are displaced they tell nothing about the surface below.
+    spots_.push_back(hit.place.displaced ? evaluate_spot(*p, u, v, scratch_)
+                                         : settle(*p, target, kNearEnough * hit.distance, u, v, scratch_));
+    primitives_.push_back(p);
+    u_.push_back(u);
+    v_.push_back(v);
+  }
+}
+
+/// The footprint as two sides of a parallelogram becomes steps along u and along v, and its sides in these
+/// steps.
+void HitGrid::take_footprints(std::span<const HitRay> hits) {
+  size_t n = hits.size();
+  for (auto& plane : footprint_)
+    plane.resize(n);
+  u_stretch_.resize(n);
+  v_stretch_.resize(n);
+  u_.resize(3 * n);
+  v_.resize(3 * n);
+  for (size_t i = 0; i < n; ++i) {
+    Footprint f = footprint_on(hits[i], spots_[i]);
+    float along_u = std::sqrt(f.ux * f.ux + f.uy * f.uy), along_v = std::sqrt(f.vx * f.vx + f.vy * f.vy);
+    // A ray that has no width in a direction still has derivatives there.
+    float step_u = along_u > 1e-9f ? along_u : kLeastStep, step_v = along_v > 1e-9f ? along_v : kLeastStep;
+    float sides[4] = {f.ux / step_u, f.vx / step_v, f.uy / step_u, f.vy / step_v};
+    for (size_t c = 0; c < 4; ++c)
+      footprint_[c][i] = sides[c];
+    float du = step_inside(u_[i], step_u), dv = step_inside(v_[i], step_v);
+    u_[n + i] = u_[i] + du;
+    v_[n + i] = v_[i];
+    u_[2 * n + i] = u_[i];
+    v_[2 * n + i] = v_[i] + dv;
+    u_stretch_[i] = step_u / du;
+    v_stretch_[i] = step_v / dv;
+  }
+}
+
+void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside,
+                   const DiceContext& context) {
+  size_t n = hits.size();
+  u_.clear();
+  v_.clear();
+  find_spots(scene, hits);
+  grid.reset(static_cast<int>(n), beside ? 3 : 1);
+  if (beside) take_footprints(hits);
+  std::vector<SurfacePoints> parts;
+  parts.reserve(u_.size());
+  for (size_t k = 0; k < u_.size(); ++k)
+    parts.push_back({primitives_[k % n], {&u_[k], 1}, {&v_[k], 1}, k < n ? &spots_[k].object : nullptr});
+  dice_points(parts, context, grid);
+  // A primitive that was moved in time is this grid's only.
+  grid.user = &scene.primitives[hits[0].place.primitive];
+  grid.lattice = slvm::Lattice::kHits;
+  grid.derivatives = beside;
+  if (beside) {
+    stretch(n);
+    for (size_t c = 0; c < 4; ++c)
+      grid.footprint[c] = footprint_[c].data();
+  }
+  set_steps(n);
+  set_rays(hits);
+}
+
+/// Brings the neighbours, which were evaluated at another distance, to where they belong.
+void HitGrid::stretch(size_t n) {
+  auto planes = [&](const slvm::Planes& p) {
+    if (!p.data || !p.step || p.type == slvm::Type::kString) return;
+    size_t count = static_cast<size_t>(slvm::components(p.type)) * (p.elements ? p.elements : 1);
+    for (size_t c = 0; c < count; ++c) {
+      float* x = p.data + c * p.pitch;
+      for (size_t i = 0; i < n; ++i) {
+        x[n + i] = x[i] + (x[n + i] - x[i]) * u_stretch_[i];
+        x[2 * n + i] = x[i] + (x[2 * n + i] - x[i]) * v_stretch_[i];
+      }
+    }
+  };
+  for (int g = 0; g < slvm::kGlobalCount; ++g)
+    planes(grid.variable(static_cast<Global>(g)));
+  for (const auto& [name, p] : grid.primvars())
+    planes(p);
+}
+
+void HitGrid::set_steps(size_t n) {
+  for (bool along_u : {true, false}) {
+    const slvm::Planes& from = grid.variable(along_u ? Global::ku : Global::kv);
+    float* to = grid.varying(along_u ? Global::kdu : Global::kdv);
+    size_t beside = along_u ? n : 2 * n;
+    for (size_t k = 0; k < grid.points(); ++k) {
+      size_t i = k % n;
+      float step = grid.derivatives ? from.data[beside + i] - from.data[i] : kLeastStep;
+      to[k] = step != 0 ? step : kLeastStep;
+    }
+  }
+}
+
+void HitGrid::aim(size_t lane) {
+  const float* P = grid.variable(Global::kP).data;
+  set_point(grid.varying(Global::kI), grid.pitch(), lane,
+            plane_point(P, grid.pitch(), lane) - origins_[lane]);
+}
+
+/// I, E and weights. A neighbour has the origin of the ray that would hit it.
+void HitGrid::set_rays(std::span<const HitRay> hits) {
+  size_t n = hits.size();
+  origins_.resize(grid.points());
+  for (size_t i = 0; i < n; ++i) {
+    const HitRay& hit = hits[i];
+    origins_[i] = hit.origin;
+    if (!grid.derivatives) continue;
+    float ux = footprint_[0][i], vx = footprint_[1][i], uy = footprint_[2][i], vy = footprint_[3][i];
+    float determinant = ux * vy - uy * vx;
+    bool usable = std::abs(determinant) > 1e-6f;
+    // One step along u is so many along x and y, by the inverse of the footprint.
+    auto origin = [&](float x, float y) {
+      return usable ? hit.origin + (hit.origin_dx * x + hit.origin_dy * y) / determinant : hit.origin;
+    };
+    origins_[n + i] = origin(vy, -vx);
+    origins_[2 * n + i] = origin(-uy, ux);
+  }
+  for (size_t k = 0; k < grid.points(); ++k)
+    aim(k);
+  float eye[3] = {hits[0].origin.x, hits[0].origin.y, hits[0].origin.z};
+  grid.set_uniform(Global::kE, eye);
+  for (int c = 0; c < 3; ++c) {
+    auto& plane = weight_[static_cast<size_t>(c)];
+    plane.resize(n);
+    for (size_t i = 0; i < n; ++i)
+      plane[i] = hits[i].weight[c];
+    grid.ray.weight[c] = plane.data();
+  }
+}
+
+void HitGrid::before_displacement() {
+  const float* P = grid.varying(Global::kP);
+  saved_.assign(P, P + 3 * grid.pitch());
+}
+
+void HitGrid::after_displacement(bool moved) {
+  float* P = grid.varying(Global::kP);
+  if (!moved) {
+    std::copy(saved_.begin(), saved_.end(), P);
+    return;
+  }
+  size_t n = grid.samples(), pitch = grid.pitch();
+  float *dPdu = grid.varying(Global::kdPdu), *dPdv = grid.varying(Global::kdPdv),
+        *Ng = grid.varying(Global::kNg);
+  const slvm::Planes &du = grid.variable(Global::kdu), &dv = grid.variable(Global::kdv);
+  float sign = grid.flip_normals ? -1.0f : 1.0f;
+  for (size_t k = 0; k < grid.points(); ++k) {
+    aim(k);
+    if (!grid.derivatives) continue;
+    size_t i = k % n;
+    Vec3 at = plane_point(P, pitch, i);
+    Vec3 along_u = (plane_point(P, pitch, n + i) - at) / du.data[i];
+    Vec3 along_v = (plane_point(P, pitch, 2 * n + i) - at) / dv.data[i];
+    set_point(dPdu, pitch, k, along_u);
+    set_point(dPdv, pitch, k, along_v);
+    Vec3 normal = glm::cross(along_u, along_v) * sign;
+    if (glm::dot(normal, normal) > 0) set_point(Ng, pitch, k, normal);
+  }
+}
+
+} // namespace render

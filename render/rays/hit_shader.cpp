@@ -1,0 +1,390 @@
+// Shading of hits.
+#include "render/rays/hit_shader.h"
+
+#include "render/hider/random.h"
+#include "render/shading/default_surface.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+
+namespace render {
+
+namespace {
+
+using slvm::Global;
+using From = slvm::RayOutput::From;
+
+/// Hits shaded at a time.
+constexpr size_t kHitsAGrid = 256;
+
+/// The services of a renderer, without rays.
+class QuietServices final : public slvm::RendererServices {
+public:
+  explicit QuietServices(slvm::RendererServices& all) : all_(all) {}
+  bool space_to_current(const slvm::ShadingState& s, std::string_view space, Matrix4& m) override {
+    return all_.space_to_current(s, space, m);
+  }
+  bool current_to_space(const slvm::ShadingState& s, std::string_view space, Matrix4& m) override {
+    return all_.current_to_space(s, space, m);
+  }
+  std::span<const slvm::Instance* const> lights(const slvm::ShadingState& s) override {
+    return all_.lights(s);
+  }
+  bool attribute(const slvm::ShadingState& s, std::string_view name, slvm::Value& out) override {
+    return all_.attribute(s, name, out);
+  }
+  bool option(const slvm::ShadingState& s, std::string_view name, slvm::Value& out) override {
+    return all_.option(s, name, out);
+  }
+  bool renderer_info(const slvm::ShadingState& s, std::string_view name, slvm::Value& out) override {
+    return all_.renderer_info(s, name, out);
+  }
+  slvm::TextureServices* textures() override { return all_.textures(); }
+  slvm::RayServices* rays() override { return &nothing_; }
+  void print(const slvm::ShadingState& s, std::string_view text) override { all_.print(s, text); }
+
+private:
+  /// A world without surfaces.
+  class Nothing final : public slvm::RayServices {
+  public:
+    void trace(const slvm::ShadingState&, const slvm::RayOptions&, const slvm::RayBatch& batch,
+               std::span<const slvm::RayOutput>, float* distance, slvm::RayCursor*) override {
+      std::fill_n(distance, batch.count, slvm::kNotShot);
+    }
+    void transmission(const slvm::ShadingState&, const slvm::RayOptions&, const slvm::RayBatch& batch,
+                      float* const (&through)[3]) override {
+      for (float* plane : through)
+        std::fill_n(plane, batch.count, 1.0f);
+    }
+    std::string hemisphere(const slvm::ShadingState&, const slvm::HemisphereQuery& q) override {
+      auto clear = [&](float* plane) {
+        if (plane) std::fill_n(plane, q.points, 0.0f);
+      };
+      clear(q.occlusion);
+      for (size_t c = 0; c < 3; ++c) {
+        clear(q.radiance[c]);
+        clear(q.environment_colour[c]);
+        clear(q.environment_direction[c]);
+      }
+      return "";
+    }
+    std::string sample_environment(const slvm::ShadingState&, const slvm::EnvironmentSamples& s) override {
+      std::fill_n(s.density, s.count, 0.0f);
+      return "";
+    }
+  };
+  slvm::RendererServices& all_;
+  Nothing nothing_;
+};
+
+bool is_from(std::span<const slvm::RayOutput> outputs, std::initializer_list<From> wanted) {
+  return std::any_of(outputs.begin(), outputs.end(), [&](const slvm::RayOutput& o) {
+    return std::find(wanted.begin(), wanted.end(), o.from) != wanted.end();
+  });
+}
+
+/// Whether results of a shader can depend on neighbouring points.
+bool differentiates(const slvm::Instance* instance) {
+  if (!instance) return false;
+  const slvm::Facts& f = instance->shader().program().facts;
+  if (f.derivatives || f.textures) return true;
+  // Rays that go on have footprints, too.
+  return f.rays && std::any_of(f.shadeops.begin(), f.shadeops.end(), [](const std::string& s) {
+           return s == "trace" || s == "gather" || s == "traverse";
+         });
+}
+
+bool uses_eye(const slvm::Instance* instance) {
+  if (!instance) return false;
+  const auto& slots = instance->program().slots;
+  return std::any_of(slots.begin(), slots.end(),
+                     [](const slvm::Slot& s) { return !s.parameter && s.name == "E"; });
+}
+
+bool fits(const slvm::RayOutput& out, slvm::Type type, uint32_t elements) {
+  bool same = out.type == type || (slvm::is_triple(out.type) && slvm::is_triple(type));
+  return same && out.elements == elements;
+}
+
+void store(const slvm::RayOutput& out, const slvm::Planes* from, std::span<const HitRay> hits) {
+  if (!from || !from->data || !fits(out, from->type, from->elements)) return;
+  size_t planes = static_cast<size_t>(slvm::components(out.type)) * (out.elements ? out.elements : 1);
+  for (size_t i = 0; i < hits.size(); ++i) {
+    for (size_t c = 0; c < planes; ++c)
+      out.data[c * out.pitch + hits[i].ray] = from->get(c, i);
+    if (out.found) out.found[hits[i].ray] = 1;
+  }
+}
+
+} // namespace
+
+/// A context and a grid for one call at a time: shaders at hits trace rays whose hits need others.
+struct HitShader::Worker {
+  Worker(const slvm::Machine& machine, slvm::RendererServices& services) : context(machine, services) {}
+  slvm::ShadingContext context;
+  HitGrid hits;
+  slvm::Grid lattice{2, 2};
+};
+
+class HitShader::WorkerLease {
+public:
+  WorkerLease(HitShader& owner, bool displacer)
+      : owner_(owner), idle_(displacer ? owner.idle_displacers_ : owner.idle_) {
+    std::lock_guard lock(owner.workers_mutex_);
+    if (!idle_.empty()) {
+      worker_ = std::move(idle_.back());
+      idle_.pop_back();
+    } else {
+      worker_ = std::make_unique<Worker>(owner.machine_, displacer ? *owner.quiet_ : owner.services_);
+    }
+  }
+  ~WorkerLease() {
+    std::lock_guard lock(owner_.workers_mutex_);
+    idle_.push_back(std::move(worker_));
+  }
+  WorkerLease(const WorkerLease&) = delete;
+  WorkerLease& operator=(const WorkerLease&) = delete;
+  Worker& operator*() const { return *worker_; }
+
+private:
+  HitShader& owner_;
+  std::vector<std::unique_ptr<Worker>>& idle_;
+  std::unique_ptr<Worker> worker_;
+};
+
+/// Which shaders have to run for the outputs.
+struct HitShader::Demand {
+  bool displacement, surface, atmosphere;
+
+  Demand(std::span<const slvm::RayOutput> outputs, bool shades) {
+    atmosphere = shades && is_from(outputs, {From::kShaded, From::kVolume, From::kAtmosphere});
+    surface = shades && (atmosphere || is_from(outputs, {From::kSurface}));
+    displacement = surface || (shades && is_from(outputs, {From::kDisplacement}));
+  }
+};
+
+/// Numbers of groups by what makes them.
+struct HitShader::Groups {
+  struct Key {
+    const Attributes* attributes;
+    std::array<float, 16> object;
+    std::string variables;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::map<Key, uint32_t> numbers;
+
+  static std::string variables_of(const Primitive& p) {
+    std::string out;
+    for (const PatchVar& var : p.vars) {
+      out += var.name;
+      out += static_cast<char>('a' + static_cast<int>(var.type));
+      out += std::to_string(var.elements);
+      out += static_cast<char>('0' + static_cast<int>(var.interpolation));
+      if (var.interpolation != Interpolation::kConstant || replaced_variable(var) != Global::kCount) continue;
+      out.append(reinterpret_cast<const char*>(var.values.data()), var.values.size() * sizeof(float));
+      for (const std::string& s : var.strings)
+        out += s + '\0';
+    }
+    return out;
+  }
+};
+
+HitShader::HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
+                     const BoundShaders& shaders, slvm::RendererServices& services)
+    : scene_(scene), machine_(machine), shaders_(shaders), services_(services),
+      quiet_(std::make_unique<QuietServices>(services)), group_(scene.primitives.size()),
+      groups_(std::make_unique<Groups>()) {
+  const Options& o = scene.options;
+  dice_ = {&camera, &machine.strings(), o.shutter_open + o.shutter_offset, o.shutter_close - o.shutter_open};
+}
+
+HitShader::~HitShader() = default;
+
+const slvm::ShaderSet& HitShader::set_of(const Primitive& p) const {
+  return shaders_.find(&p.attributes())->shaders;
+}
+
+bool HitShader::displaces(const Primitive& p) const {
+  return set_of(p).displacement != nullptr;
+}
+
+void HitShader::positions(const Primitive& primitive, const UvRect& rect, int nu, int nv,
+                          std::vector<Vec3>& P) {
+  WorkerLease lease(*this, true);
+  slvm::Grid& grid = (*lease).lattice;
+  GridTask task;
+  task.rect = rect;
+  task.nu = nu;
+  task.nv = nv;
+  auto bits = [](float x) { return static_cast<int64_t>(std::bit_cast<uint32_t>(x)); };
+  dice(primitive, task, hash_of(bits(rect.u0), bits(rect.v0), kDisplacedFaces), dice_, grid);
+  (*lease).context.displace(set_of(primitive), grid);
+  const slvm::Planes& from = grid.variable(Global::kP);
+  P.resize(grid.points());
+  for (size_t k = 0; k < P.size(); ++k)
+    P[k] = {from.get(0, k), from.get(1, k), from.get(2, k)};
+}
+
+uint32_t HitShader::group_of(uint32_t primitive) {
+  uint32_t& known = group_[primitive];
+  if (known) return known;
+  const Primitive& p = scene_.primitives[primitive];
+  Groups::Key key{&p.attributes(), p.state->object_to_camera.m, Groups::variables_of(p)};
+  auto [it, is_new] = groups_->numbers.try_emplace(std::move(key), 0);
+  // The first primitive of the group: a number that does not depend on what was hit first is not needed, as
+  // the order of groups changes no result; that all points of a grid are of one group does.
+  if (is_new) it->second = static_cast<uint32_t>(groups_->numbers.size());
+  return known = it->second;
+}
+
+/// By group, then primitive, then ray. Groups are in the order of their first hits here, whatever their
+/// numbers.
+void HitShader::sort(std::vector<HitRay>& hits) {
+  struct Key {
+    uint32_t order, primitive, index;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys(hits.size());
+  {
+    std::map<uint32_t, uint32_t> orders; // of groups
+    uint32_t group = 0, order = 0;
+    std::lock_guard lock(groups_mutex_);
+    for (uint32_t i = 0; i < hits.size(); ++i) {
+      uint32_t primitive = hits[i].place.primitive;
+      if (uint32_t g = group_of(primitive); g != group) {
+        group = g;
+        order = orders.try_emplace(g, static_cast<uint32_t>(orders.size())).first->second;
+      }
+      keys[i] = {order, primitive, i};
+    }
+  }
+  if (std::is_sorted(keys.begin(), keys.end())) return;
+  std::sort(keys.begin(), keys.end());
+  std::vector<HitRay> sorted;
+  sorted.reserve(hits.size());
+  for (const Key& key : keys)
+    sorted.push_back(hits[key.index]);
+  hits = std::move(sorted);
+}
+
+void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
+                      std::span<const slvm::RayOutput> outputs) {
+  if (hits.empty() || outputs.empty()) return;
+  sort(hits);
+  Demand demand(outputs, batch.shades);
+  WorkerLease lease(*this, false);
+  auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
+  for (size_t first = 0, end = 0; first < hits.size(); first = end) {
+    const slvm::ShaderSet& set = set_of(scene_.primitives[hits[first].place.primitive]);
+    // E is uniform: where a shader looks at it, hits of rays from different places cannot be shaded together.
+    bool apart = demand.displacement &&
+                 (uses_eye(set.displacement) || uses_eye(set.surface) || uses_eye(set.atmosphere));
+    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == group(first); ++end)
+      if (apart && hits[end].origin != hits[first].origin) break;
+    shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand,
+               hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
+  }
+}
+
+bool HitShader::is_primitive_mode(const Primitive& p, const HitBatch& batch) const {
+  if (batch.mode != slvm::HitMode::kDefault) return batch.mode == slvm::HitMode::kPrimitive;
+  const RayAttributes& a = p.attributes().rays;
+  return batch.kind == slvm::RayKind::kSpecular  ? !a.specular_shaded
+         : batch.kind == slvm::RayKind::kDiffuse ? !a.diffuse_shaded
+                                                 : !a.transmission_shaded;
+}
+
+namespace {
+
+/// Ci = Os Cs, Oi = Os: the look of a hit whose shaders do not run.
+void look_like_primitive(slvm::Grid& grid) {
+  float *Ci = grid.varying(Global::kCi), *Oi = grid.varying(Global::kOi);
+  const slvm::Planes &Cs = grid.variable(Global::kCs), &Os = grid.variable(Global::kOs);
+  for (size_t c = 0; c < 3; ++c)
+    for (size_t k = 0; k < grid.points(); ++k) {
+      Oi[c * grid.pitch() + k] = Os.get(c, k);
+      Ci[c * grid.pitch() + k] = Os.get(c, k) * Cs.get(c, k);
+    }
+}
+
+/// Takes the outputs of one kind from a grid: parameters of the shader, predefined variables, primitive
+/// variables.
+void take(const slvm::ShadingContext& context, const slvm::Grid& grid, const slvm::Instance* shader,
+          From from, std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs) {
+  for (const slvm::RayOutput& out : outputs) {
+    if (out.from != from) continue;
+    const slvm::Planes* planes = shader ? context.output(*shader, out.name) : nullptr;
+    if (!planes)
+      if (Global g = slvm::find_global(out.name); g != Global::kCount) planes = &grid.variable(g);
+    if (!planes || !planes->data) planes = grid.primvar(std::string(out.name));
+    store(out, planes, hits);
+  }
+}
+
+} // namespace
+
+void HitShader::take_attributes(const HitBatch& batch, const slvm::Grid& grid, const slvm::ShaderSet& set,
+                                std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs) {
+  slvm::ShadingState state{grid, set, batch.from.running};
+  for (const slvm::RayOutput& out : outputs) {
+    slvm::Value value;
+    if (out.from != From::kAttribute || !services_.attribute(state, out.name, value)) continue;
+    for (const std::string& s : value.strings)
+      value.numbers.push_back(std::bit_cast<float>(machine_.strings().intern(s)));
+    size_t planes = static_cast<size_t>(slvm::components(value.type)) * (value.elements ? value.elements : 1);
+    if (value.numbers.size() != planes || !fits(out, value.type, value.elements)) continue;
+    for (const HitRay& hit : hits) {
+      for (size_t c = 0; c < planes; ++c)
+        out.data[c * out.pitch + hit.ray] = value.numbers[c];
+      if (out.found) out.found[hit.ray] = 1;
+    }
+  }
+}
+
+void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
+                           std::span<const slvm::RayOutput> outputs, const Demand& demand, uint64_t id) {
+  const Primitive& primitive = scene_.primitives[hits[0].place.primitive];
+  slvm::ShaderSet set = set_of(primitive);
+  bool plain = is_primitive_mode(primitive, batch), surface = demand.surface && !plain;
+  if (!demand.displacement || plain) set.displacement = nullptr;
+  if (!surface) set.surface = nullptr;
+  if (!demand.atmosphere || plain) set.atmosphere = nullptr;
+  bool beside =
+      differentiates(set.displacement) || differentiates(set.surface) || differentiates(set.atmosphere);
+  for (const slvm::Instance* light : shaders_.find(&primitive.attributes())->lights)
+    beside = beside || (set.surface && differentiates(light));
+  slvm::Grid& grid = worker.hits.grid;
+  worker.hits.dice(scene_, hits, beside, dice_);
+  const float* weight[3] = {grid.ray.weight[0], grid.ray.weight[1], grid.ray.weight[2]};
+  grid.ray = batch.facts;
+  std::copy_n(weight, 3, grid.ray.weight);
+  grid.id = id;
+  ++grids_;
+  points_ += grid.points();
+  slvm::ShadingContext& context = worker.context;
+  take(context, grid, nullptr, From::kPrimitive, hits, outputs);
+  take_attributes(batch, grid, set, hits, outputs);
+  if (set.displacement) {
+    worker.hits.before_displacement();
+    context.displace(set, grid);
+    worker.hits.after_displacement(primitive.attributes().rays.displacements);
+    take(context, grid, set.displacement, From::kDisplacement, hits, outputs);
+  }
+  if (!demand.surface) return;
+  if (plain)
+    look_like_primitive(grid);
+  else if (!set.surface)
+    shade_by_default(grid);
+  if (set.surface) context.shade_surface(set, grid);
+  take(context, grid, set.surface, From::kSurface, hits, outputs);
+  if (set.surface) context.shade_atmosphere(); // or what ends the grid
+  if (set.atmosphere) {
+    if (!set.surface) context.run(*set.atmosphere, grid);
+    take(context, grid, set.atmosphere, From::kVolume, hits, outputs);
+    take(context, grid, set.atmosphere, From::kAtmosphere, hits, outputs);
+  }
+  take(context, grid, nullptr, From::kShaded, hits, outputs);
+}
+
+} // namespace render

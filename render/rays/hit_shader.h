@@ -1,0 +1,74 @@
+// Runs the shaders of what rays hit: hits are put in order of their shaders and primitives, shaded as grids
+// of a few hundred points, and what the rays' shader wants to know is taken from these grids.
+#pragma once
+
+#include "render/rays/hit_grid.h"
+#include "render/shading/bound_shaders.h"
+#include "render/shading/services.h"
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace render {
+
+/// What is the same for all hits of a batch.
+struct HitBatch {
+  const slvm::ShadingState& from; ///< whose rays they are
+  slvm::RayKind kind = slvm::RayKind::kSpecular;
+  slvm::HitMode mode = slvm::HitMode::kDefault;
+  bool shades = true;   ///< false: shaders do not run
+  slvm::RayFacts facts; ///< of the grids
+  uint64_t seed = 0;    ///< of the grids' numbers
+};
+
+class HitShader final : public Displacer {
+public:
+  /// All arguments must outlive this. `services` is what shaders at hits ask; `quiet` the same without rays,
+  /// for displacement shaders that run while faces are made.
+  HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
+            const BoundShaders& shaders, slvm::RendererServices& services);
+  ~HitShader() override;
+
+  /// Shades hits (and reorders them) and stores the outputs of each at its ray.
+  void shade(std::vector<HitRay>& hits, const HitBatch& batch, std::span<const slvm::RayOutput> outputs);
+
+  bool displaces(const Primitive&) const override;
+  void positions(const Primitive&, const UvRect&, int nu, int nv, std::vector<Vec3>& P) override;
+
+  /// Grids and points shaded so far, neighbours included.
+  struct Usage {
+    size_t grids = 0, points = 0;
+  };
+  Usage usage() const { return {grids_, points_}; }
+
+private:
+  struct Worker;
+  class WorkerLease;
+  struct Demand;
+  uint32_t group_of(uint32_t primitive);
+  void sort(std::vector<HitRay>& hits);
+  void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
+                  std::span<const slvm::RayOutput> outputs, const Demand& demand, uint64_t id);
+  bool is_primitive_mode(const Primitive&, const HitBatch& batch) const;
+  const slvm::ShaderSet& set_of(const Primitive&) const;
+  void take_attributes(const HitBatch& batch, const slvm::Grid& grid, const slvm::ShaderSet& set,
+                       std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs);
+
+  const Scene& scene_;
+  const slvm::Machine& machine_;
+  const BoundShaders& shaders_;
+  slvm::RendererServices& services_;
+  std::unique_ptr<slvm::RendererServices> quiet_;
+  DiceContext dice_;
+  std::mutex workers_mutex_;
+  std::vector<std::unique_ptr<Worker>> idle_, idle_displacers_;
+  std::mutex groups_mutex_;
+  std::vector<uint32_t>
+      group_; ///< by primitive: number of the group that can be diced together; 0: not known yet
+  struct Groups;
+  std::unique_ptr<Groups> groups_;
+  std::atomic<size_t> grids_{0}, points_{0};
+};
+
+} // namespace render

@@ -1,0 +1,151 @@
+// Gathering primitives into items is in gather_items.cpp; here is what happens to items while rays are
+// traced.
+#include "render/rays/ray_geometry.h"
+
+#include "render/prims/motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace render {
+
+namespace {
+
+/// Moments at which a moving item is made, at most.
+constexpr int kMostMoments = 9;
+
+/// Evenly apart from 0 to 1 so that all `keys` are among them, if that is possible.
+std::vector<float> moments_of(const std::set<float>& keys) {
+  int steps = 1;
+  auto fits = [&](float key) {
+    float at = key * static_cast<float>(steps);
+    return std::abs(at - std::round(at)) < 1e-4f;
+  };
+  while (steps < kMostMoments - 1 && !std::all_of(keys.begin(), keys.end(), fits))
+    ++steps;
+  std::vector<float> out;
+  for (int i = 0; i <= steps; ++i)
+    out.push_back(static_cast<float>(i) / static_cast<float>(steps));
+  return out;
+}
+
+} // namespace
+
+RayGeometry::~RayGeometry() = default;
+
+/// Called by Embree for each ray that comes to the item.
+const FaceScene* RayGeometry::faces(uint32_t index) {
+  Item& item = *items_[items_[index]->model];
+  uint64_t now = clock_.load(std::memory_order_relaxed);
+  if (item.used.load(std::memory_order_relaxed) != now) item.used.store(now, std::memory_order_relaxed);
+  if (const FaceScene* ready = item.ready.load(std::memory_order_acquire)) return ready;
+  if (item.made.load(std::memory_order_acquire)) return nullptr;
+  std::lock_guard lock(item.making);
+  if (!item.made) make(item);
+  return item.ready;
+}
+
+void RayGeometry::make(Item& item) {
+  std::vector<float> moments{0};
+  if (item.traits.moving) {
+    std::set<float> keys;
+    for (uint32_t p : item.primitives)
+      for (float t : motion_times(scene_.primitives[p]))
+        keys.insert(t);
+    if (!keys.empty()) moments = moments_of(keys);
+  }
+  std::vector<QuadMesh> parts;
+  parts.reserve(item.primitives.size());
+  for (size_t i = 0; i < item.primitives.size(); ++i)
+    tessellate(scene_.primitives[item.primitives[i]], item.rates[i], displacer_, moments,
+               item.placed ? &item.to_object : nullptr, parts);
+  item.faces = device_.build(joined(parts, moments.size()));
+  ++made_;
+  faces_ += item.first_face.back();
+  item.ready.store(item.faces.get(), std::memory_order_release);
+  item.made.store(true, std::memory_order_release);
+}
+
+SurfacePlace RayGeometry::place(const RayHit& hit) const {
+  const Item& item = *items_[hit.item];
+  auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), hit.face);
+  auto i = static_cast<size_t>(after - item.first_face.begin()) - 1;
+  FaceRate rate = item.rates[i];
+  auto face = static_cast<int>(hit.face - item.first_face[i]);
+  SurfacePlace out;
+  out.primitive = item.primitives[i];
+  out.u = (static_cast<float>(face % rate.u) + hit.u) / static_cast<float>(rate.u);
+  out.v = (static_cast<float>(face / rate.u) + hit.v) / static_cast<float>(rate.v);
+  out.u = std::clamp(out.u, 0.0f, 1.0f);
+  out.v = std::clamp(out.v, 0.0f, 1.0f);
+  out.displaced = is_displaced_for_rays(scene_.primitives[out.primitive], displacer_);
+  return out;
+}
+
+/// The patches of one request are one surface.
+bool RayGeometry::same_surface(uint32_t index, uint32_t face, uint32_t other) const {
+  const Item& item = *items_[index];
+  auto state = [&](uint32_t f) {
+    auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), f);
+    return scene_.primitives[item.primitives[static_cast<size_t>(after - item.first_face.begin()) - 1]]
+        .state.get();
+  };
+  return state(face) == state(other);
+}
+
+/// A subset names groups that are seen, or, with "-", groups that are not; with only the latter all others
+/// are.
+bool RayGeometry::group_is_in(uint32_t groups, std::string_view subset) const {
+  std::vector<std::string_view> members = words_of(groups_[groups]);
+  bool wanted = false, any_wanted = false;
+  for (std::string_view word : words_of(subset)) {
+    bool without = word[0] == '-';
+    if (word[0] == '-' || word[0] == '+') word.remove_prefix(1);
+    bool member = std::find(members.begin(), members.end(), word) != members.end();
+    if (without && member) return false;
+    any_wanted = any_wanted || !without;
+    wanted = wanted || (!without && member);
+  }
+  return wanted || !any_wanted;
+}
+
+const uint8_t* RayGeometry::seen(slvm::RayKind kind, std::string_view subset) {
+  std::lock_guard lock(seen_mutex_);
+  auto [it, is_new] = seen_.try_emplace({kind, std::string(subset)});
+  std::vector<uint8_t>& out = it->second;
+  if (!is_new) return out.data();
+  out.resize(items_.size() + 1); // never without data
+  for (size_t i = 0; i < items_.size(); ++i) {
+    const RayTraits& t = items_[i]->traits;
+    bool visible = kind == slvm::RayKind::kSpecular  ? t.specular
+                   : kind == slvm::RayKind::kDiffuse ? t.diffuse
+                                                     : t.shadow != RayOpacity::kTransparent;
+    out[i] = visible && group_is_in(t.groups, subset);
+  }
+  return out.data();
+}
+
+void RayGeometry::trim() {
+  clock_.fetch_add(1, std::memory_order_relaxed);
+  if (device_.bytes() <= settings_.most_bytes) return;
+  std::unique_lock lock(gate_);
+  std::vector<std::pair<uint64_t, Item*>> all;
+  for (const auto& item : items_)
+    if (item->faces) all.emplace_back(item->used.load(), item.get());
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  // Well below the limit, or the next rays would be here again. What was used last stays, however large.
+  for (size_t i = 0; i + 1 < all.size() && device_.bytes() > settings_.most_bytes / 4 * 3; ++i) {
+    Item& item = *all[i].second;
+    item.ready = nullptr;
+    item.made = false;
+    item.faces.reset();
+    ++dropped_;
+  }
+}
+
+RayGeometryUsage RayGeometry::usage() const {
+  return {device_.bytes(), made_, dropped_, faces_};
+}
+
+} // namespace render

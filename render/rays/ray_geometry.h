@@ -1,0 +1,104 @@
+// All that rays can hit in a scene, made on demand.
+//
+// Primitives that rays treat alike are gathered into items of neighbours, up to a few hundred thousand faces
+// each; the world (embree_world.h) knows their boxes. An item's faces are made when the first ray reaches its
+// box, by the thread of that ray, and dropped again, the longest unused first, when all faces together take
+// more memory than allowed. Faces depend on the scene only, never on which ray asked, so that nothing else
+// depends on when they were made. Objects that are instanced share the faces of their first instance.
+#pragma once
+
+#include "render/rays/ray_usage.h"
+#include "render/rays/tessellate.h"
+#include "render/state/scene.h"
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <shared_mutex>
+
+namespace render {
+
+/// What decides which rays see an item, and how.
+struct RayTraits {
+  bool specular = false, diffuse = false;
+  RayOpacity shadow = RayOpacity::kTransparent;
+  bool one_sided = false, flipped = false, moving = false;
+  uint32_t groups = 0; ///< number of the set of groups it is in
+  auto operator<=>(const RayTraits&) const = default;
+};
+
+struct RayGeometrySettings {
+  size_t most_bytes = size_t{1} << 30; ///< of faces and hierarchies
+  size_t item_faces = size_t{1} << 18; ///< gathered in one item, about
+};
+
+/// A hit on its primitive.
+struct SurfacePlace {
+  uint32_t primitive = 0; ///< of the scene
+  float u = 0, v = 0;     ///< in its parameter square
+  bool displaced = false; ///< the faces hit were those of the displaced surface
+};
+
+class RayGeometry final : public ItemFaces {
+public:
+  /// All arguments must outlive this. `displacer` may be null.
+  RayGeometry(const Scene& scene, const Camera& camera, Displacer* displacer,
+              RayGeometrySettings settings = {});
+  ~RayGeometry() override;
+
+  const RayWorld& world() const { return *world_; }
+  const RayTraits& traits(uint32_t item) const { return items_[item]->traits; }
+  size_t items() const { return items_.size(); }
+  SurfacePlace place(const RayHit& hit) const;
+  bool same_surface(uint32_t item, uint32_t face, uint32_t other) const override;
+
+  /// One an item: whether rays of a kind that see only `subset` (RayOptions) see it. Valid as long as this.
+  const uint8_t* seen(slvm::RayKind kind, std::string_view subset);
+  /// One an item: whether it lets no light through to transmission rays.
+  const uint8_t* solid() const { return solid_.data(); }
+
+  /// To be held while rays are traced.
+  std::shared_lock<std::shared_mutex> tracing() { return std::shared_lock(gate_); }
+  /// To be called now and then, not while `tracing`: drops faces while there are too many.
+  void trim();
+
+  RayGeometryUsage usage() const;
+
+private:
+  struct Item {
+    RayTraits traits;
+    std::vector<uint32_t> primitives;
+    std::vector<uint32_t> first_face; ///< of each primitive, and the end
+    std::vector<FaceRate> rates;
+    Box bounds;
+    uint32_t model = 0;           ///< the item whose faces these are: itself, or the first instance
+    Matrix4 to_camera, to_object; ///< of instances
+    bool placed = false;
+    std::mutex making;
+    std::unique_ptr<const FaceScene> faces;
+    std::atomic<const FaceScene*> ready{nullptr};
+    std::atomic<bool> made{false};
+    std::atomic<uint64_t> used{0};
+  };
+  class Gatherer;
+
+  const FaceScene* faces(uint32_t item) override;
+  void make(Item& item);
+  bool group_is_in(uint32_t groups, std::string_view subset) const;
+
+  const Scene& scene_;
+  Displacer* displacer_;
+  RayGeometrySettings settings_;
+  RayDevice device_;
+  std::vector<std::unique_ptr<Item>> items_;
+  std::vector<std::string> groups_;
+  std::vector<uint8_t> solid_;
+  std::unique_ptr<RayWorld> world_;
+  std::shared_mutex gate_;
+  std::mutex seen_mutex_;
+  std::map<std::pair<slvm::RayKind, std::string>, std::vector<uint8_t>, std::less<>> seen_;
+  std::atomic<uint64_t> clock_{1};
+  std::atomic<size_t> made_{0}, dropped_{0}, faces_{0};
+};
+
+} // namespace render

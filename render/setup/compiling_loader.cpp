@@ -1,0 +1,110 @@
+// Compiling shaders on the fly.
+#include "render/setup/compiling_loader.h"
+
+#include "render/setup/places.h"
+#include "render/state/search_path.h"
+#include "slc/compiler.h"
+#include "slvm/evaluator.h"
+#include "slvm/format/slo.h"
+#include "slvm/format/stale.h"
+#include "slvm/plugin/finder.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace render::setup {
+
+namespace {
+
+class CompilingLoader {
+public:
+  CompilingLoader(std::string program, std::function<void(std::string_view)> show,
+                  std::vector<std::string> plugin_folders)
+      : program_(std::move(program)), show_(std::move(show)), plugins_(std::move(plugin_folders)) {}
+
+  slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path);
+
+private:
+  slvm::Result<std::string> compile(const std::string& file, const std::string& name,
+                                    const std::vector<std::string>& path);
+
+  std::string program_;
+  std::function<void(std::string_view)> show_;
+  slvm::PluginFinder plugins_;
+  // Made when the first source is met: most runs have compiled shaders only.
+  std::unique_ptr<slc::Compiler> compiler_;
+  std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_;
+};
+
+slvm::Result<std::string> CompilingLoader::load(const std::string& name,
+                                                const std::vector<std::string>& path) {
+  bool as_it_is = name.ends_with(".slo");
+  if (auto compiled = find_file(as_it_is ? name : name + ".slo", path)) {
+    auto bytes = load_compiled_shader(name, path);
+    if (!bytes) return bytes;
+    auto program = slvm::read_slo(std::as_bytes(std::span(*bytes)));
+    if (!program) {
+      // Often it is of another renderer, and its source beside it.
+      auto source = as_it_is ? std::nullopt : find_file(name + ".sl", path);
+      if (!source) return bytes; // whoever loads it says what is wrong
+      show_(fmt::format("{}: warning: {}: {}; {} is compiled instead\n", program_, *compiled, program.error(),
+                        *source));
+      return compile(*source, name, path);
+    }
+    std::string warning = slvm::stale_warning(*program, *compiled, !as_it_is);
+    if (warning.empty()) return bytes;
+    show_(fmt::format("{}: warning: {}\n", program_, warning));
+    if (as_it_is) return bytes;
+    return compile(slvm::find_source(*program, *compiled, program->source_name), name, path);
+  }
+  if (as_it_is) return no_such_shader(name, path);
+  if (auto source = find_file(name + ".sl", path)) return compile(*source, name, path);
+  return no_such_shader(name, path);
+}
+
+slvm::Result<std::string> CompilingLoader::compile(const std::string& file, const std::string& name,
+                                                   const std::vector<std::string>& path) {
+  auto text = read_file(file);
+  if (!text) return slvm::Error{fmt::format("cannot read \"{}\"", file)};
+  if (!compiler_) {
+    compiler_ = std::make_unique<slc::Compiler>();
+    evaluator_ = slvm::make_kernel_evaluator();
+  }
+  slvm::SourceManager sources;
+  slvm::Diagnostics diagnostics;
+  slc::CompileOptions options;
+  options.preprocess.include_dirs = path;
+  if (const char* folders = std::getenv("SLC_INCLUDE"))
+    for (std::string& folder : parse_search_path(folders, {}, {}))
+      options.preprocess.include_dirs.push_back(std::move(folder));
+  options.evaluator = evaluator_.get();
+  options.plugins = &plugins_;
+  auto shaders = compiler_->compile(sources.add(file, std::move(*text)), options, sources, diagnostics);
+  std::string messages = format_diagnostics(diagnostics, sources);
+  if (!messages.empty()) show_(messages);
+  if (diagnostics.has_errors()) return slvm::Error{fmt::format("\"{}\" does not compile", file)};
+  for (const slc::CompiledShader& shader : shaders) {
+    // The name may come with folders.
+    if (shader.program.name != name && shader.program.name != std::filesystem::path(file).stem()) continue;
+    std::vector<std::byte> bytes = slvm::write_slo(shader.program);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  return slvm::Error{fmt::format("\"{}\" defines no shader \"{}\"", file, name)};
+}
+
+} // namespace
+
+ShaderLoader make_compiling_loader(std::string program, std::function<void(std::string_view)> show,
+                                   std::vector<std::string> plugin_folders) {
+  auto loader =
+      std::make_shared<CompilingLoader>(std::move(program), std::move(show), std::move(plugin_folders));
+  return [loader](const std::string& name, const std::vector<std::string>& path) {
+    return loader->load(name, path);
+  };
+}
+
+} // namespace render::setup

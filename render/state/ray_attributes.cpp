@@ -1,0 +1,123 @@
+// The parameters by name.
+#include "render/state/ray_attributes.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace render {
+
+namespace {
+
+std::string set_flag(bool& out, const slvm::Value& value) {
+  if (value.numbers.size() != 1) return "takes one number";
+  out = value.numbers[0] != 0;
+  return "";
+}
+
+std::string set_number(float& out, const slvm::Value& value) {
+  if (value.numbers.size() != 1 || !(value.numbers[0] >= 0)) return "takes one number, 0 or more";
+  out = value.numbers[0];
+  return "";
+}
+
+std::string set_depth(int& out, const slvm::Value& value) {
+  if (value.numbers.size() != 1 || !(value.numbers[0] >= 0)) return "takes one number, 0 or more";
+  out = static_cast<int>(std::min(value.numbers[0], 1000.0f));
+  return "";
+}
+
+std::string set_hit_mode(bool& shaded, const slvm::Value& value) {
+  if (value.strings.size() != 1 || (value.strings[0] != "shader" && value.strings[0] != "primitive"))
+    return "is \"primitive\" or \"shader\"";
+  shaded = value.strings[0] == "shader";
+  return "";
+}
+
+std::string set_transmission(RayOpacity& out, const slvm::Value& value) {
+  if (value.numbers.size() == 1) {
+    out = value.numbers[0] != 0 ? RayOpacity::kShader : RayOpacity::kTransparent;
+    return "";
+  }
+  constexpr std::pair<std::string_view, RayOpacity> kNames[] = {{"transparent", RayOpacity::kTransparent},
+                                                                {"opaque", RayOpacity::kOpaque},
+                                                                {"Os", RayOpacity::kOs},
+                                                                {"shader", RayOpacity::kShader}};
+  for (auto [name, opacity] : kNames)
+    if (value.strings.size() == 1 && value.strings[0] == name) {
+      out = opacity;
+      return "";
+    }
+  return "is \"transparent\", \"opaque\", \"Os\", \"shader\", 0 or 1";
+}
+
+std::optional<std::string> set_visibility(RayAttributes& a, std::string_view name, const slvm::Value& value) {
+  if (name == "camera") return set_flag(a.camera, value);
+  if (name == "specular") return set_flag(a.specular, value);
+  if (name == "diffuse") return set_flag(a.diffuse, value);
+  if (name == "photon") return set_flag(a.photon, value);
+  if (name == "transmission") return set_transmission(a.transmission, value);
+  if (name != "trace") return {};
+  std::string problem = set_flag(a.specular, value);
+  if (problem.empty()) a.diffuse = a.specular;
+  return problem;
+}
+
+std::optional<std::string> set_trace(RayAttributes& a, std::string_view name, const slvm::Value& value) {
+  if (name == "bias") return set_number(a.bias, value);
+  if (name == "maxspeculardepth") return set_depth(a.max_specular_depth, value);
+  if (name == "maxdiffusedepth") return set_depth(a.max_diffuse_depth, value);
+  if (name == "displacements") return set_flag(a.displacements, value);
+  if (name == "samplemotion") return set_flag(a.sample_motion, value);
+  return {};
+}
+
+std::optional<std::string> set_shade(RayAttributes& a, std::string_view name, const slvm::Value& value) {
+  if (name == "specularhitmode") return set_hit_mode(a.specular_shaded, value);
+  if (name == "diffusehitmode") return set_hit_mode(a.diffuse_shaded, value);
+  if (name == "transmissionhitmode") return set_hit_mode(a.transmission_shaded, value);
+  return {};
+}
+
+/// "a b" replaces the groups; "+a" joins one, "-a" leaves one.
+std::string set_groups(std::string& groups, const slvm::Value& value) {
+  if (value.strings.size() != 1) return "takes one string";
+  std::vector<std::string> members;
+  std::vector<std::string_view> wanted = words_of(value.strings[0]);
+  auto changes = [](std::string_view word) { return word[0] == '+' || word[0] == '-'; };
+  if (!wanted.empty() && std::all_of(wanted.begin(), wanted.end(), changes))
+    for (std::string_view word : words_of(groups))
+      members.emplace_back(word);
+  for (std::string_view word : wanted) {
+    std::string name(changes(word) ? word.substr(1) : word);
+    std::erase(members, name);
+    if (word[0] != '-' && !name.empty()) members.push_back(name);
+  }
+  groups = fmt::format("{}", fmt::join(members, " "));
+  return "";
+}
+
+} // namespace
+
+std::vector<std::string_view> words_of(std::string_view list) {
+  constexpr std::string_view kApart = " ,\t\n\r";
+  std::vector<std::string_view> out;
+  for (size_t at = list.find_first_not_of(kApart); at != std::string_view::npos;) {
+    size_t end = std::min(list.find_first_of(kApart, at), list.size());
+    out.push_back(list.substr(at, end - at));
+    at = list.find_first_not_of(kApart, end);
+  }
+  return out;
+}
+
+std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view category,
+                                             std::string_view name, const slvm::Value& value) {
+  if (category == "visibility") return set_visibility(a, name, value);
+  if (category == "trace") return set_trace(a, name, value);
+  if (category == "shade") return set_shade(a, name, value);
+  if (category == "grouping" && name == "membership") return set_groups(a.groups, value);
+  if (category == "irradiance" && name == "maxerror") return set_number(a.max_error, value);
+  if (category == "irradiance" && name == "maxpixeldist") return set_number(a.max_pixel_distance, value);
+  return {};
+}
+
+} // namespace render

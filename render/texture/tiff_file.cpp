@@ -1,0 +1,200 @@
+#include "render/texture/tiff_file.h"
+
+#include "render/texture/depth_image.h"
+#include "render/texture/image_file.h"
+
+#include <tiffio.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+
+namespace render {
+
+namespace {
+
+using Messages = std::string;
+
+/// libtiff's message goes to the text given with the options, never to the terminal.
+int keep_message(TIFF*, void* text, const char*, const char* format, va_list arguments) {
+  char line[512];
+  std::vsnprintf(line, sizeof line, format, arguments);
+  auto& messages = *static_cast<Messages*>(text);
+  if (messages.empty()) messages = line;
+  return 1;
+}
+int no_message(TIFF*, void*, const char*, const char*, va_list) {
+  return 1;
+}
+
+struct Close {
+  void operator()(TIFF* t) const { TIFFClose(t); }
+};
+using File = std::unique_ptr<TIFF, Close>;
+
+File open(const std::string& path, const char* mode, Messages& messages) {
+  TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
+  if (!options) return nullptr;
+  TIFFOpenOptionsSetErrorHandlerExtR(options, keep_message, &messages);
+  TIFFOpenOptionsSetWarningHandlerExtR(options, no_message, nullptr);
+  File file(TIFFOpenExt(path.c_str(), mode, options));
+  TIFFOpenOptionsFree(options);
+  return file;
+}
+
+const std::map<std::string, uint16_t>& compressions() {
+  static const std::map<std::string, uint16_t> kNames = {{"", COMPRESSION_ADOBE_DEFLATE},
+                                                         {"none", COMPRESSION_NONE},
+                                                         {"zip", COMPRESSION_ADOBE_DEFLATE},
+                                                         {"lzw", COMPRESSION_LZW},
+                                                         {"packbits", COMPRESSION_PACKBITS}};
+  return kNames;
+}
+
+uint16_t bits(PixelType type) {
+  return type == PixelType::kByte ? 8 : type == PixelType::kShort ? 16 : 32;
+}
+
+void set_compression(TIFF* t, const ImageFile& image) {
+  uint16_t way = compressions().at(image.compression);
+  TIFFSetField(t, TIFFTAG_COMPRESSION, way);
+  if (way == COMPRESSION_NONE || way == COMPRESSION_PACKBITS) return;
+  TIFFSetField(t, TIFFTAG_PREDICTOR,
+               image.type == PixelType::kFloat ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
+  // Rendered noise hardly gets smaller by trying harder.
+  if (way == COMPRESSION_ADOBE_DEFLATE) TIFFSetField(t, TIFFTAG_ZIPQUALITY, 2);
+}
+
+/// Colours and what is beside them: the fourth channel is alpha when it is called so.
+void set_channels(TIFF* t, const ImageFile& image) {
+  const auto& names = image.channels;
+  const bool colored = names.size() >= 3 && names[0] == "R" && names[1] == "G" && names[2] == "B";
+  TIFFSetField(t, TIFFTAG_SAMPLESPERPIXEL, static_cast<uint16_t>(names.size()));
+  TIFFSetField(t, TIFFTAG_PHOTOMETRIC,
+               colored || names.size() == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
+  std::vector<uint16_t> others;
+  for (size_t i = colored || names.size() == 3 ? 3 : 1; i < names.size(); ++i)
+    others.push_back(names[i] == "A" ? EXTRASAMPLE_ASSOCALPHA : EXTRASAMPLE_UNSPECIFIED);
+  if (!others.empty())
+    TIFFSetField(t, TIFFTAG_EXTRASAMPLES, static_cast<uint16_t>(others.size()), others.data());
+}
+
+constexpr int kRows = 64; // of a strip
+
+void set_fields(TIFF* t, const ImageFile& image) {
+  TIFFSetField(t, TIFFTAG_IMAGEWIDTH, static_cast<uint32_t>(image.width));
+  TIFFSetField(t, TIFFTAG_IMAGELENGTH, static_cast<uint32_t>(image.height));
+  TIFFSetField(t, TIFFTAG_BITSPERSAMPLE, bits(image.type));
+  TIFFSetField(t, TIFFTAG_SAMPLEFORMAT,
+               image.type == PixelType::kFloat ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
+  TIFFSetField(t, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(t, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, kRows);
+  set_channels(t, image);
+  set_compression(t, image);
+  TIFFSetField(t, TIFFTAG_SOFTWARE, "Anemone slrender");
+  // How wide a pixel is against its height; readers want both numbers, in no unit.
+  TIFFSetField(t, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE);
+  TIFFSetField(t, TIFFTAG_XRESOLUTION, 1.0);
+  TIFFSetField(t, TIFFTAG_YRESOLUTION, static_cast<double>(image.pixel_aspect));
+  if (image.x != 0 || image.y != 0) {
+    TIFFSetField(t, TIFFTAG_XPOSITION, static_cast<double>(image.x));
+    TIFFSetField(t, TIFFTAG_YPOSITION, static_cast<double>(image.y));
+  }
+  TIFFSetField(t, TIFFTAG_PIXAR_IMAGEFULLWIDTH, static_cast<uint32_t>(image.full_width));
+  TIFFSetField(t, TIFFTAG_PIXAR_IMAGEFULLLENGTH, static_cast<uint32_t>(image.full_height));
+  if (!image.texture_format.empty())
+    TIFFSetField(t, TIFFTAG_PIXAR_TEXTUREFORMAT, image.texture_format.c_str());
+  TIFFSetField(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA, image.world_to_camera.data());
+  TIFFSetField(t, TIFFTAG_PIXAR_MATRIX_WORLDTOSCREEN, image.world_to_screen.data());
+}
+
+bool write_strips(TIFF* t, const ImageFile& image) {
+  const size_t row = static_cast<size_t>(image.width) * image.channels.size() * bits(image.type) / 8;
+  std::vector<std::byte> strip; // libtiff changes it
+  for (int y = 0, i = 0; y < image.height; y += kRows, ++i) {
+    const size_t from = static_cast<size_t>(y) * row;
+    const size_t size = static_cast<size_t>(std::min(kRows, image.height - y)) * row;
+    strip.assign(image.pixels.data() + from, image.pixels.data() + from + size);
+    if (TIFFWriteEncodedStrip(t, static_cast<uint32_t>(i), strip.data(), static_cast<tmsize_t>(size)) < 0)
+      return false;
+  }
+  return TIFFFlush(t) != 0;
+}
+
+std::vector<float> matrix(TIFF* t, uint32_t tag) {
+  const float* numbers = nullptr; // libtiff knows these tags to have 16
+  if (!TIFFGetField(t, tag, &numbers) || !numbers) return {};
+  return {numbers, numbers + 16};
+}
+
+/// Rows of floats, or tiles of them.
+bool read_pixels(TIFF* t, DepthImage& out) {
+  const auto width = static_cast<uint32_t>(out.width), height = static_cast<uint32_t>(out.height);
+  if (!TIFFIsTiled(t)) {
+    if (TIFFScanlineSize(t) != static_cast<tmsize_t>(width * sizeof(float))) return false;
+    for (uint32_t y = 0; y < height; ++y)
+      if (TIFFReadScanline(t, &out.depth[static_cast<size_t>(y) * width], y) < 0) return false;
+    return true;
+  }
+  uint32_t tile_width = 0, tile_height = 0;
+  TIFFGetField(t, TIFFTAG_TILEWIDTH, &tile_width);
+  TIFFGetField(t, TIFFTAG_TILELENGTH, &tile_height);
+  const auto numbers = static_cast<size_t>(tile_width) * tile_height;
+  if (numbers == 0 || TIFFTileSize(t) != static_cast<tmsize_t>(numbers * sizeof(float))) return false;
+  std::vector<float> tile(numbers);
+  for (uint32_t y = 0; y < height; y += tile_height)
+    for (uint32_t x = 0; x < width; x += tile_width) {
+      if (TIFFReadTile(t, tile.data(), x, y, 0, 0) < 0) return false;
+      for (uint32_t row = 0; row < std::min(tile_height, height - y); ++row)
+        std::copy_n(&tile[static_cast<size_t>(row) * tile_width], std::min(tile_width, width - x),
+                    &out.depth[static_cast<size_t>(y + row) * width + x]);
+    }
+  return true;
+}
+
+constexpr uint32_t kLargestSide = 1 << 16;
+
+} // namespace
+
+bool tiff_compresses(const std::string& name) {
+  return compressions().count(name) > 0;
+}
+
+std::string write_tiff(const ImageFile& image) {
+  Messages messages;
+  File file = open(image.path, "w", messages);
+  bool written = false;
+  if (file) {
+    set_fields(file.get(), image);
+    written = write_strips(file.get(), image);
+  }
+  file.reset();
+  if (written && messages.empty()) return {};
+  return messages.empty() ? "cannot be written" : messages;
+}
+
+bool read_depth_tiff(const std::string& path, DepthImage& out) {
+  Messages messages;
+  File file = open(path, "r", messages);
+  if (!file) return false;
+  TIFF* t = file.get();
+  uint32_t width = 0, height = 0;
+  uint16_t channels = 1, depth = 1, kind = SAMPLEFORMAT_UINT;
+  TIFFGetField(t, TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(t, TIFFTAG_IMAGELENGTH, &height);
+  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLESPERPIXEL, &channels);
+  TIFFGetFieldDefaulted(t, TIFFTAG_BITSPERSAMPLE, &depth);
+  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLEFORMAT, &kind);
+  if (channels != 1 || depth != 32 || kind != SAMPLEFORMAT_IEEEFP) return false;
+  if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide) return false;
+  out.width = static_cast<int>(width);
+  out.height = static_cast<int>(height);
+  out.depth.assign(static_cast<size_t>(width) * height, 0.0f);
+  out.world_to_camera = matrix(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA);
+  out.world_to_screen = matrix(t, TIFFTAG_PIXAR_MATRIX_WORLDTOSCREEN);
+  return read_pixels(t, out);
+}
+
+} // namespace render

@@ -1,0 +1,90 @@
+// Optional arguments, by name.
+#include "slvm/exec/rays/call_tokens.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace slvm {
+
+std::string_view text_of(const ShaderRun& run, const Operand& o) {
+  return run.state.machine.strings().text(std::bit_cast<uint32_t>(o.data[o.step ? first_point(run) : 0]));
+}
+
+size_t first_point(const ShaderRun& run) {
+  const MaskWord* mask = run.mask.current();
+  for (size_t i = 0; i < run.mask.words(); ++i)
+    if (mask[i]) return i * kMaskWordLanes + static_cast<size_t>(std::countr_zero(mask[i]));
+  return 0;
+}
+
+uint32_t sample_count(float asked) {
+  constexpr float kMost = 1 << 20;
+  return asked >= 1 ? static_cast<uint32_t>(std::min(std::floor(asked + 0.5f), kMost)) : 1;
+}
+
+void fill(const ShaderRun& run, const GridOperand& out, float value) {
+  for (size_t c = 0; c < static_cast<size_t>(components(out.type)); ++c)
+    std::fill_n(out.planes.plane(c), out.planes.step ? run.pitch : kMaxLanes, value);
+}
+
+CallTokens::CallTokens(const GridCall& call, size_t first) : call_(call) {
+  for (size_t i = first; i + 1 < call.operands.size(); i += 2)
+    pairs_.emplace_back(text_of(call.run, call.operands[i].planes), &call.operands[i + 1]);
+}
+
+const GridOperand* CallTokens::find(std::string_view name) const {
+  for (size_t i = pairs_.size(); i-- > 0;)
+    if (pairs_[i].first == name) return pairs_[i].second;
+  return nullptr;
+}
+
+std::string_view CallTokens::text(std::string_view name) const {
+  const GridOperand* o = find(name);
+  return o && o->type == Type::kString && !o->array ? text_of(call_.run, o->planes) : std::string_view();
+}
+
+PointValue CallTokens::values(std::string_view name, float otherwise) const {
+  const GridOperand* o = find(name);
+  return o && o->type == Type::kFloat && !o->array ? PointValue(o->planes) : PointValue(otherwise);
+}
+
+float CallTokens::number(std::string_view name, float otherwise) const {
+  return values(name, otherwise).at(first_point(call_.run));
+}
+
+PointValue CallTokens::weight() const {
+  const GridOperand* o = find("weight");
+  if (!o) o = find("importance");
+  return o && is_triple(o->type) && !o->array ? PointValue(o->planes) : PointValue(1);
+}
+
+size_t CallTokens::choice(std::string_view token, std::initializer_list<std::string_view> names) const {
+  const std::string_view given = text(token);
+  if (given.empty()) return 0;
+  const auto* it = std::find(names.begin(), names.end(), given);
+  if (it != names.end()) return static_cast<size_t>(it - names.begin());
+  call_.run.report(
+      call_.code, MessageSeverity::kWarning,
+      fmt::format("{}: \"{}\" is {}, not \"{}\"", call_.info.name, token, fmt::join(names, " or "), given),
+      mask_count(call_.run.mask.current(), call_.run.points));
+  return 0;
+}
+
+RayOptions CallTokens::ray_options(RayKind kind) const {
+  RayOptions o;
+  o.kind = kind;
+  constexpr HitSides kSides[] = {HitSides::kBoth, HitSides::kFront, HitSides::kBack};
+  o.sides = kSides[choice("hitsides", {"both", "front", "back"})];
+  constexpr HitMode kModes[] = {HitMode::kDefault, HitMode::kPrimitive, HitMode::kShader};
+  o.mode = kModes[choice("hitmode", {"default", "primitive", "shader"})];
+  o.label = text("label");
+  o.subset = text("subset");
+  const float calls = number(":call", 0); // the compiler counts them
+  o.seed = calls >= 0 && calls < 0x1p31f ? static_cast<uint32_t>(calls) : 0;
+  return o;
+}
+
+} // namespace slvm

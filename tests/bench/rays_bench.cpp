@@ -1,0 +1,260 @@
+// What rays cost beside bare Embree, and what shading their hits costs beside one dense grid. Both sides run
+// in turn in one process, on one thread; results are compared before anything is timed. Usage: rays_bench
+// [test | shade]: "test" compares only, "shade" leaves out Embree.
+#include "slvm/format/slo.h"
+#include "tests/render/rays/ray_scene.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <random>
+#include <string>
+
+namespace {
+
+using render::Vec3;
+using render::testing::RayScene;
+
+constexpr int kRounds = 7;
+constexpr size_t kBatch = 8192;
+
+/// The best of several rounds, in seconds.
+template <class F> double seconds_of(F&& f) {
+  double best = 1e30;
+  for (int i = 0; i < kRounds; ++i) {
+    auto start = std::chrono::steady_clock::now();
+    f();
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+/// 16 x 16 balls on a floor: about a million triangles.
+std::string balls() {
+  std::string rib = "Format 1000 1000 1 Projection \"perspective\" \"fov\" 40 WorldBegin Attribute "
+                    "\"visibility\" \"trace\" 1 "
+                    "Attribute \"trace\" \"float bias\" .003 Surface \"shiny\" Translate 0 -3 14 ";
+  for (int i = 0; i < 256; ++i)
+    rib += fmt::format("TransformBegin Translate {} .4 {} Sphere .4 -.4 .4 360 TransformEnd ", i % 16 - 7.5,
+                       i / 16 - 3);
+  return rib + "Polygon \"P\" [-20 0 -20 20 0 -20 20 0 40 -20 0 40] WorldEnd";
+}
+
+/// Rays of ambient occlusion: from points of the floor and the balls, by cosine about their normals.
+struct Rays {
+  std::vector<float> origin[3], direction[3];
+  std::vector<uint32_t> point, sample;
+
+  void add(Vec3 p, Vec3 n, int samples, std::mt19937& random) {
+    std::uniform_real_distribution<float> unit;
+    Vec3 x = glm::normalize(glm::cross(n, std::abs(n.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0))),
+         y = glm::cross(n, x);
+    auto number = static_cast<uint32_t>(point.empty() ? 0 : point.back() + 1);
+    for (int i = 0; i < samples; ++i) {
+      float r2 = unit(random), a = 6.2831853f * unit(random), r = std::sqrt(r2);
+      Vec3 d = x * (r * std::cos(a)) + y * (r * std::sin(a)) + n * std::sqrt(1 - r2);
+      for (int c = 0; c < 3; ++c) {
+        origin[c].push_back(p[c]);
+        direction[c].push_back(d[c]);
+      }
+      point.push_back(number);
+      sample.push_back(static_cast<uint32_t>(i));
+    }
+  }
+  size_t size() const { return point.size(); }
+  slvm::RayBatch batch(size_t first) const {
+    slvm::RayBatch b;
+    b.count = std::min(kBatch, size() - first);
+    for (int c = 0; c < 3; ++c) {
+      b.origin[c] = origin[c].data() + first;
+      b.direction[c] = direction[c].data() + first;
+    }
+    b.point = point.data() + first;
+    b.sample = sample.data() + first;
+    return b;
+  }
+};
+
+Rays occlusion_rays() {
+  Rays rays;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> unit;
+  for (int i = 0; i < 4000; ++i)
+    rays.add({unit(random) * 16 - 8, -3, unit(random) * 16 + 10.5f}, {0, 1, 0}, 64, random);
+  return rays;
+}
+
+/// All faces of the scene in one scene of triangles.
+class BareEmbree {
+public:
+  explicit BareEmbree(const render::Scene& scene)
+      : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+    render::Camera camera(scene.options);
+    std::vector<render::QuadMesh> parts;
+    const float open[] = {0};
+    for (const render::Primitive& p : scene.primitives)
+      render::tessellate(p, render::measure_rate(p, camera, false), nullptr, open, nullptr, parts);
+    render::QuadMesh mesh = render::joined(parts, 1);
+    triangles = 2 * mesh.faces.size();
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* v = static_cast<float*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, mesh.points.size()));
+    for (Vec3 p : mesh.points)
+      for (int c = 0; c < 3; ++c)
+        *v++ = p[c];
+    auto* index = static_cast<uint32_t*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, triangles));
+    for (const auto& f : mesh.faces)
+      for (uint32_t k : {f[0], f[1], f[3], f[2], f[3], f[1]})
+        *index++ = k;
+    rtcCommitGeometry(g);
+    rtcAttachGeometry(scene_, g);
+    rtcReleaseGeometry(g);
+    rtcCommitScene(scene_);
+  }
+  ~BareEmbree() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+
+  void trace(const Rays& rays, float bias, std::vector<float>& distance) const {
+#if RTC_VERSION_MAJOR < 4
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+#endif
+    for (size_t i = 0; i < rays.size(); ++i) {
+      RTCRayHit r{};
+      r.ray.org_x = rays.origin[0][i];
+      r.ray.org_y = rays.origin[1][i];
+      r.ray.org_z = rays.origin[2][i];
+      r.ray.dir_x = rays.direction[0][i];
+      r.ray.dir_y = rays.direction[1][i];
+      r.ray.dir_z = rays.direction[2][i];
+      r.ray.tnear = bias;
+      r.ray.tfar = render::kInfinity;
+      r.ray.mask = ~0u;
+      r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR < 4
+      rtcIntersect1(scene_, &context, &r);
+#else
+      rtcIntersect1(scene_, &r, nullptr);
+#endif
+      distance[i] = r.ray.tfar;
+    }
+  }
+  size_t triangles = 0;
+
+private:
+  RTCDevice device_;
+  RTCScene scene_;
+};
+
+void trace(RayScene& s, const Rays& rays, const slvm::ShadingState& state, std::span<slvm::RayOutput> outputs,
+           std::vector<float>& distance) {
+  slvm::RayOptions options;
+  options.kind = slvm::RayKind::kDiffuse;
+  options.shades = !outputs.empty();
+  std::vector<slvm::RayOutput> here(outputs.begin(), outputs.end());
+  for (size_t first = 0; first < rays.size(); first += kBatch) {
+    for (size_t k = 0; k < here.size(); ++k)
+      here[k].data = outputs[k].data + first;
+    s.tracer().trace(state, options, rays.batch(first), here, &distance[first], nullptr);
+  }
+}
+
+bool compare_with_embree(bool measure) {
+  RayScene s(balls(), {{"shiny", "surface shiny() {}"}});
+  Rays rays = occlusion_rays();
+  BareEmbree bare(s.scene());
+  std::vector<float> ours(rays.size()), theirs(rays.size());
+  slvm::ShadingState state = (s.asking_grid(1, 1, 0), s.state());
+  bare.trace(rays, 0.003f, theirs);
+  trace(s, rays, state, {}, ours);
+  size_t different = 0, hits = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    hits += ours[i] < render::kInfinity;
+    different += !(std::abs(ours[i] - theirs[i]) <= 1e-3f) && ours[i] != theirs[i];
+  }
+  fmt::print("{} triangles, {} rays, {} hits, {} differ\n", bare.triangles, rays.size(), hits, different);
+  if (different * 1000 > rays.size()) return false;
+  if (!measure) return true;
+  double a = seconds_of([&] { bare.trace(rays, 0.003f, theirs); });
+  double b = seconds_of([&] { trace(s, rays, state, {}, ours); });
+  auto rate = [&](double t) { return static_cast<double>(rays.size()) / t / 1e6; };
+  fmt::print("bare Embree {:.3f} Mrays/s, ours {:.3f} Mrays/s: {:.0f} %\n", rate(a), rate(b), 100 * a / b);
+  return true;
+}
+
+// A shader of usual cost: noise, a lamp, a highlight.
+constexpr const char* kShiny =
+    "surface shiny() { float n = 0, a = 1; uniform float i; point q = P * 4;"
+    "for (i = 0; i < 4; i += 1) { n += a * noise(q); q *= 2; a *= .5; }"
+    "vector L = normalize(vector(1,2,-1)), V = normalize(-I); normal Nf = faceforward(normalize(N), I);"
+    "Oi = Os; Ci = Cs * (.1 + max(0, Nf.L)) * n + pow(max(0, Nf.normalize(L + V)), 20); }";
+
+void compare_with_grid() {
+  for (bool textured : {false, true}) {
+    std::string shader = kShiny;
+    if (textured) shader.insert(shader.find("Oi = Os"), "n *= 1 + .001 * Du(n) * du;");
+    RayScene s("Format 500 500 1 Projection \"perspective\" \"fov\" 40 WorldBegin Attribute \"visibility\" "
+               "\"trace\" 1 "
+               "Surface \"shiny\" Translate 0 0 5 Sphere 1 -1 1 360 WorldEnd",
+               {{"shiny", shader}});
+    Rays rays;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit;
+    while (rays.size() < 65536) {
+      Vec3 p{unit(random) * 6 - 3, unit(random) * 6 - 3, 0};
+      Vec3 to = glm::normalize(Vec3(0, 0, 5) - p);
+      rays.add(p + to * 0.1f, to, 1, random);
+      for (int c = 0; c < 3; ++c) // towards the ball
+        rays.direction[c].back() =
+            glm::normalize(Vec3(0, 0, 5) - p + Vec3(unit(random) - .5f, unit(random) - .5f, 0.0f))[c];
+    }
+    slvm::ShadingState state = (s.asking_grid(1, 1, 0), s.state());
+    std::vector<float> distance(rays.size()), colour(3 * rays.size());
+    slvm::RayOutput Ci = RayScene::output(slvm::RayOutput::From::kSurface, "Ci", slvm::Type::kColor);
+    Ci.data = colour.data();
+    Ci.pitch = rays.size();
+    double with = seconds_of([&] { trace(s, rays, state, {&Ci, 1}, distance); });
+    double without = seconds_of([&] { trace(s, rays, state, {}, distance); });
+    // The same number of points as grids of 16 x 16.
+    render::Camera camera(s.scene().options);
+    render::DiceContext dice{&camera, &s.machine().strings(), 0, 0};
+    slvm::ShadingContext context(s.machine(), s.services());
+    slvm::Grid grid(2, 2);
+    const slvm::ShaderSet& set = s.shaders(0);
+    double dense = seconds_of([&] {
+      render::GridTask task;
+      task.nu = task.nv = 16;
+      for (int k = 0; k < 256; ++k) {
+        task.rect = {static_cast<float>(k % 16) / 16, static_cast<float>(k % 16 + 1) / 16,
+                     static_cast<float>(k / 16) / 16, static_cast<float>(k / 16 + 1) / 16};
+        render::dice(s.scene().primitives[0], task, static_cast<uint64_t>(k), dice, grid);
+        context.shade(set, grid);
+      }
+    });
+    double per = 1e9 / static_cast<double>(rays.size());
+    fmt::print("{} derivatives: rays {:.0f} ns, hits shaded {:.0f} ns, dense grid {:.0f} ns: shading "
+               "{:.2f}x, whole gather {:.2f}x\n",
+               textured ? "with" : "without", without * per, (with - without) * per, dense * per,
+               (with - without) / dense, with / (without + dense));
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc < 2 ? "" : argv[1];
+  bool measure = what != "test";
+  if (what != "shade" && !compare_with_embree(measure)) return 1;
+  if (measure) compare_with_grid();
+  return 0;
+}

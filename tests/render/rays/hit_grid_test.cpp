@@ -1,0 +1,181 @@
+// Footprints of rays where they hit, and the neighbours that derivatives at hits are taken from: compared
+// with what neighbouring rays really hit.
+#include "render/rays/hit_grid.h"
+#include "tests/render/rays/ray_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace render::testing {
+namespace {
+
+const std::string kSeen = "Attribute \"visibility\" \"trace\" 1 ";
+
+/// A ray leaving `origin` after the mirror turned it, and the same for the neighbours in x and y.
+struct RayFan {
+  Vec3 origin, direction, origin_dx, origin_dy, direction_dx, direction_dy;
+};
+
+/// Camera rays through pixels 1/100 apart, mirrored by a plane z = 5 whose normal is turned in x and y.
+RayFan plane_mirror(float x, float y) {
+  Vec3 n = glm::normalize(Vec3(0.2f, 0.1f, -1));
+  auto reflected = [&](float px, float py) {
+    Vec3 d(px, py, 1);
+    float t = glm::dot(Vec3(0, 0, 5), n) / glm::dot(d, n);
+    return std::pair(d * t, glm::normalize(glm::reflect(d, n)));
+  };
+  auto [p, d] = reflected(x, y);
+  auto [px, dx] = reflected(x + 0.01f, y);
+  auto [py, dy] = reflected(x, y + 0.01f);
+  return {p, d, px - p, py - p, dx - d, dy - d};
+}
+
+/// The same by a sphere of radius 1 about (0, 0, 5).
+RayFan sphere_mirror(float x, float y, float step) {
+  auto reflected = [&](float px, float py) {
+    glm::dvec3 d = glm::normalize(glm::dvec3(px, py, 1)), c(0, 0, 5);
+    double b = glm::dot(d, c), t = b - std::sqrt(b * b - glm::dot(c, c) + 1);
+    glm::dvec3 p = d * t;
+    return std::pair(p, glm::normalize(glm::reflect(d, p - c)));
+  };
+  auto [p, d] = reflected(x, y);
+  auto [px, dx] = reflected(x + step, y);
+  auto [py, dy] = reflected(x, y + step);
+  return {Vec3(p), Vec3(d), Vec3(px - p), Vec3(py - p), Vec3(dx - d), Vec3(dy - d)};
+}
+
+HitRay hit_of(RayScene& s, const RayFan& fan) {
+  HitRay hit;
+  hit.origin = fan.origin;
+  hit.direction = fan.direction;
+  hit.wide = true;
+  hit.origin_dx = fan.origin_dx;
+  hit.origin_dy = fan.origin_dy;
+  hit.direction_dx = fan.direction_dx;
+  hit.direction_dy = fan.direction_dy;
+  hit.distance = s.distance({fan.origin, fan.direction});
+  return hit;
+}
+
+/// A wall behind the eye, z = -2, 40 wide and high; u and v are along x and y.
+const std::string kWall =
+    "WorldBegin " + kSeen + "Patch \"bilinear\" \"P\" [-20 -20 -2 20 -20 -2 -20 20 -2 20 20 -2] WorldEnd";
+
+void expect_footprint(RayScene& s, const RayFan& fan, float tolerance) {
+  HitRay hit = hit_of(s, fan);
+  ASSERT_LT(hit.distance, 1000);
+  auto uv_on_wall = [](Vec3 origin, Vec3 direction) {
+    Vec3 p = origin + direction * ((-2 - origin.z) / direction.z);
+    return Vec2((p.x + 20) / 40, (p.y + 20) / 40);
+  };
+  SurfaceLattice scratch;
+  Vec2 at = uv_on_wall(fan.origin, fan.direction);
+  Footprint f = footprint_on(hit, evaluate_spot(s.scene().primitives[0], at.x, at.y, scratch));
+  Vec2 x = uv_on_wall(fan.origin + fan.origin_dx, glm::normalize(fan.direction + fan.direction_dx)) - at;
+  Vec2 y = uv_on_wall(fan.origin + fan.origin_dy, glm::normalize(fan.direction + fan.direction_dy)) - at;
+  float size = std::max({std::abs(x.x), std::abs(x.y), std::abs(y.x), std::abs(y.y)});
+  EXPECT_NEAR(f.ux, x.x, tolerance * size);
+  EXPECT_NEAR(f.vx, x.y, tolerance * size);
+  EXPECT_NEAR(f.uy, y.x, tolerance * size);
+  EXPECT_NEAR(f.vy, y.y, tolerance * size);
+}
+
+TEST(Footprint, of_plane_mirrors) {
+  RayScene s(kWall);
+  for (float x : {-0.3f, 0.0f, 0.2f})
+    for (float y : {-0.2f, 0.1f})
+      expect_footprint(s, plane_mirror(x, y), 0.02f);
+}
+
+TEST(Footprint, of_sphere_mirrors) {
+  RayScene s(kWall);
+  for (float x : {-0.06f, 0.01f, 0.08f})
+    for (float y : {-0.05f, 0.07f})
+      expect_footprint(s, sphere_mirror(x, y, 1e-4f), 0.02f);
+}
+
+TEST(HitGrid, neighbours_lie_where_neighbouring_rays_hit) {
+  RayScene s("WorldBegin " + kSeen + "Translate 0 0 -6 Rotate 20 1 1 0 Sphere 3 -3 3 360 WorldEnd");
+  RayFan fan = sphere_mirror(0.01f, -0.02f, 2e-4f);
+  HitRay hit = hit_of(s, fan);
+  ASSERT_LT(hit.distance, 100);
+  // Where on the sphere: by its own trace.
+  TestRay ray{fan.origin, fan.direction};
+  hit.place.u = s.value(ray, "primitive:u", slvm::Type::kFloat)[0];
+  hit.place.v = s.value(ray, "primitive:v", slvm::Type::kFloat)[0];
+  Camera camera(s.scene().options);
+  DiceContext context{&camera, &s.machine().strings(), 0, 0};
+  HitGrid hits;
+  std::vector<HitRay> list(3, hit);
+  hits.dice(s.scene(), list, true, context);
+  slvm::Grid& g = hits.grid;
+  ASSERT_EQ(g.nu(), 3);
+  ASSERT_EQ(g.nv(), 3);
+  EXPECT_EQ(g.samples(), 3u);
+  auto P = [&](size_t k) {
+    const slvm::Planes& p = g.variable(slvm::Global::kP);
+    return Vec3(p.get(0, k), p.get(1, k), p.get(2, k));
+  };
+  // One ray step along x is footprint[0] steps along u and footprint[1] along v.
+  Vec3 along_u = P(3 + 1) - P(1), along_v = P(6 + 1) - P(1);
+  Vec3 x = along_u * g.footprint[0][1] + along_v * g.footprint[1][1];
+  Vec3 y = along_u * g.footprint[2][1] + along_v * g.footprint[3][1];
+  auto hit_point = [&](Vec3 o, Vec3 d) {
+    d = glm::normalize(d);
+    glm::dvec3 c(0, 0, -6), oc = glm::dvec3(o) - c;
+    double b = glm::dot(glm::dvec3(d), oc), t = -b - std::sqrt(b * b - glm::dot(oc, oc) + 9);
+    return Vec3(glm::dvec3(o) + glm::dvec3(d) * t);
+  };
+  Vec3 here = hit_point(fan.origin, fan.direction);
+  Vec3 true_x = hit_point(fan.origin + fan.origin_dx, fan.direction + fan.direction_dx) - here;
+  Vec3 true_y = hit_point(fan.origin + fan.origin_dy, fan.direction + fan.direction_dy) - here;
+  float size = glm::length(true_x) + glm::length(true_y);
+  EXPECT_LT(glm::distance(P(1), here), 3e-3f);
+  EXPECT_LT(glm::distance(x, true_x), 0.03f * size);
+  EXPECT_LT(glm::distance(y, true_y), 0.03f * size);
+  // Du(P) is the derivative by u: the step divided by du.
+  float du = g.variable(slvm::Global::kdu).get(0, 1);
+  const slvm::Planes& dPdu = g.variable(slvm::Global::kdPdu);
+  Vec3 derivative(dPdu.get(0, 1), dPdu.get(1, 1), dPdu.get(2, 1));
+  EXPECT_LT(glm::distance(along_u / du, derivative), 0.02f * glm::length(derivative));
+}
+
+TEST(HitGrid, derivatives_at_the_edges_of_a_surface) {
+  // u = 1: the neighbour is looked for inside, and brought outside.
+  RayScene s("WorldBegin " + kSeen + "Patch \"bilinear\" \"P\" [0 0 5 1 0 5 0 1 5 1 1 5] WorldEnd");
+  Camera camera(s.scene().options);
+  DiceContext context{&camera, &s.machine().strings(), 0, 0};
+  HitRay hit;
+  hit.place = {0, 1, 1, false};
+  hit.origin = {1, 1, 0};
+  hit.direction = {0, 0, 1};
+  hit.distance = 5;
+  hit.wide = true;
+  hit.origin_dx = {0.25f, 0, 0};
+  hit.origin_dy = {0, 3, 0};
+  HitGrid hits;
+  hits.dice(s.scene(), {&hit, 1}, true, context);
+  const slvm::Planes &u = hits.grid.variable(slvm::Global::ku), &v = hits.grid.variable(slvm::Global::kv);
+  EXPECT_NEAR(u.get(0, 1), 1.25f, 1e-4f);
+  EXPECT_NEAR(v.get(0, 2), 4, 1e-3f);
+  EXPECT_NEAR(hits.grid.variable(slvm::Global::kdu).get(0, 0), 0.25f, 1e-4f);
+  EXPECT_NEAR(hits.grid.variable(slvm::Global::kP).get(0, 1), 1.25f, 1e-4f);
+}
+
+TEST(HitGrid, shaders_at_hits_differentiate) {
+  RayScene s("WorldBegin " + kSeen +
+                 "Surface \"slope\" Patch \"bilinear\" \"P\" [0 0 5 2 0 5 0 4 5 2 4 5] WorldEnd",
+             {{"slope", "surface slope(output varying float d = 0, a = 0; output varying normal n = 0) {"
+                        " d = Du(s * s); a = area(P); n = calculatenormal(P); }"}});
+  EXPECT_EQ(s.messages(), "");
+  TestRay ray{{0.5f, 1, 0}};
+  EXPECT_NEAR(s.value(ray, "surface:d", slvm::Type::kFloat)[0], 2 * 0.25f, 1e-3f) << "s is u";
+  auto n = s.value(ray, "surface:n", slvm::Type::kNormal);
+  EXPECT_NEAR(std::abs(n[2]), 8, 1e-2f) << "dPdu x dPdv";
+  auto N = s.value(ray, "primitive:N", slvm::Type::kNormal);
+  EXPECT_GT(n[2] * N[2], 0);
+}
+
+} // namespace
+} // namespace render::testing

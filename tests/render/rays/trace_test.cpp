@@ -1,0 +1,306 @@
+// Rays and what they hit: distances, who sees what, how deep rays go, what is told about a hit.
+#include "tests/render/rays/ray_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace render::testing {
+namespace {
+
+using slvm::RayKind;
+using slvm::Type;
+using ::testing::ElementsAre;
+using ::testing::FloatNear;
+using ::testing::IsEmpty;
+
+const std::string kSeen = "Attribute \"visibility\" \"trace\" 1 \"transmission\" \"opaque\" ";
+
+std::string world(const std::string& rib) {
+  return "Projection \"perspective\" \"fov\" 45 WorldBegin " + kSeen + rib + " WorldEnd";
+}
+
+TEST(Trace, distances_are_those_of_the_surfaces) {
+  RayScene s(
+      world("Translate 0 0 5 Sphere 1 -1 1 360 Translate 0 0 5 Polygon \"P\" [-9 -9 0 9 -9 0 9 9 0 -9 9 0]"));
+  EXPECT_EQ(s.messages(), "");
+  EXPECT_NEAR(s.distance({}), 4, 2e-3f);
+  EXPECT_NEAR(s.distance({{0, 0, 5}, {0, 0, 1}}), 1, 2e-3f) << "from inside";
+  EXPECT_NEAR(s.distance({{3, 0, 0}}), 10, 1e-5f);
+  EXPECT_NEAR(s.distance({{3, 0, 0}, {0, 3, 4}}), 12.5, 1e-5f);
+  EXPECT_EQ(s.distance({{0, 0, 11}}), kInfinity);
+  EXPECT_EQ(s.distance({{}, {0, 0, 1}, 3.9f}), kInfinity) << "maxdist";
+  EXPECT_NEAR(s.distance({{}, {0, 0, 1}, 4.1f}), 4, 2e-3f);
+  EXPECT_NEAR(s.distance({{}, {0, 0, 1}, kInfinity, 4.5f}), 6, 2e-3f) << "bias";
+}
+
+TEST(Trace, hits_are_evaluated_where_the_ray_meets_the_surface) {
+  // A trapezoid, a triangle, a sphere, a bicubic patch: their parameters are not those of flat faces.
+  for (const char* shape :
+       {"Polygon \"P\" [-2 -1 0 2 -1 0 .5 1 0 -.5 1 0]", "Polygon \"P\" [-2 -1 0 2 -1 0 0 1.5 0]",
+        "Sphere 1 -1 1 360", "Rotate 70 1 0 0 Cylinder 1 -1 1 360",
+        "Patch \"bicubic\" \"P\" [-3 -3 0 -1 -3 2 1 -3 -2 3 -3 0  -3 -1 2 -1 -1 3 1 -1 0 3 -1 2 "
+        " -3 1 0 -1 1 -3 1 1 3 3 1 0  -3 3 0 -1 3 2 1 3 -2 3 3 0]"}) {
+    SCOPED_TRACE(shape);
+    RayScene s(world(std::string("Translate 0 0 6 ") + shape));
+    for (float x : {-0.31f, 0.0f, 0.27f, 0.4f})
+      for (float y : {-0.6f, 0.1f, 0.55f}) {
+        TestRay ray{{x, y, 0}};
+        auto P = s.value(ray, "primitive:P", Type::kPoint);
+        ASSERT_EQ(P.size(), 3u);
+        EXPECT_NEAR(P[0], x, 3e-3f);
+        EXPECT_NEAR(P[1], y, 3e-3f);
+        auto I = s.value(ray, "primitive:I", Type::kVector);
+        EXPECT_NEAR(I[2], P[2], 1e-5f) << "from the ray's origin";
+      }
+  }
+}
+
+TEST(Trace, variables_of_the_primitive) {
+  RayScene s(world("Translate 0 0 2 Color .2 .4 .6 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0] "
+                   "\"varying float heat\" [0 1 1 0] \"constant string mark\" [\"here\"] "
+                   "\"uniform float[2] pair\" [3 4] "),
+             {});
+  TestRay ray{{0.5f, -0.25f, 0}};
+  EXPECT_THAT(s.value(ray, "primitive:heat", Type::kFloat), ElementsAre(FloatNear(0.75f, 1e-5f)));
+  EXPECT_THAT(s.value(ray, "primitive:s", Type::kFloat), ElementsAre(FloatNear(0.5f, 1e-5f))) << "object x";
+  EXPECT_THAT(s.value(ray, "primitive:Cs", Type::kColor), ElementsAre(0.2f, 0.4f, 0.6f));
+  EXPECT_THAT(s.value(ray, "primitive:N", Type::kNormal), ElementsAre(0, 0, ::testing::Ne(0)));
+  EXPECT_THAT(s.value(ray, "primitive:N", Type::kVector), ::testing::SizeIs(3))
+      << "any three numbers will do";
+  EXPECT_THAT(s.value(ray, "primitive:heat", Type::kColor), IsEmpty()) << "another type";
+  EXPECT_THAT(s.value(ray, "primitive:cold", Type::kFloat), IsEmpty());
+  EXPECT_THAT(s.value(ray, "primitive:pair", Type::kFloat), IsEmpty()) << "an array";
+  auto mark = s.value(ray, "primitive:mark", Type::kString);
+  ASSERT_EQ(mark.size(), 1u);
+  EXPECT_EQ(s.machine().strings().text(std::bit_cast<uint32_t>(mark[0])), "here");
+  slvm::RayOutput pair = RayScene::output(slvm::RayOutput::From::kPrimitive, "pair", Type::kFloat);
+  pair.elements = 2;
+  EXPECT_THAT(s.trace({ray}, {pair})[0].values[0], ElementsAre(3, 4));
+  EXPECT_THAT(s.value({{5, 5, 0}}, "primitive:heat", Type::kFloat), IsEmpty()) << "a miss";
+}
+
+TEST(Trace, hits_run_displacement_surface_and_atmosphere) {
+  RayScene s(
+      world("Surface \"tint\" Displacement \"shift\" Atmosphere \"haze\" Attribute \"user\" \"float tag\" 7 "
+            "Color .5 .5 .5 Translate 0 0 4 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"),
+      {{"tint", "surface tint(output varying float mine = 0) { mine = s; Ci = Cs * color(1,0,0); Oi = .5; }"},
+       {"shift", "displacement shift(output varying float moved = 0) { moved = 1; N = vector(1, 0, 0); }"},
+       {"haze", "volume haze() { Ci = mix(Ci, color(0,0,1), .5); }"}});
+  EXPECT_EQ(s.messages(), "");
+  TestRay ray{{0.25f, 0.5f, 0}};
+  EXPECT_THAT(s.value(ray, "surface:mine", Type::kFloat), ElementsAre(FloatNear(0.25f, 1e-5f)));
+  EXPECT_THAT(s.value(ray, "surface:Ci", Type::kColor), ElementsAre(0.5f, 0, 0)) << "before the atmosphere";
+  EXPECT_THAT(s.value(ray, "surface:Oi", Type::kColor), ElementsAre(0.5f, 0.5f, 0.5f));
+  EXPECT_THAT(s.value(ray, "shaded:Ci", Type::kColor), ElementsAre(0.25f, 0, 0.5f)) << "after it";
+  EXPECT_THAT(s.value(ray, "volume:Ci", Type::kColor), ElementsAre(0.25f, 0, 0.5f));
+  EXPECT_THAT(s.value(ray, "displacement:moved", Type::kFloat), ElementsAre(1));
+  EXPECT_THAT(s.value(ray, "surface:N", Type::kNormal), ElementsAre(1, 0, 0))
+      << "as the displacement left it";
+  EXPECT_THAT(s.value(ray, "primitive:N", Type::kNormal), ElementsAre(0, 0, ::testing::Ne(0)));
+  EXPECT_THAT(s.value(ray, "attribute:user:tag", Type::kFloat), ElementsAre(7));
+  slvm::RayOptions unshaded;
+  unshaded.shades = false;
+  EXPECT_THAT(s.value(ray, "surface:Ci", Type::kColor, unshaded), IsEmpty());
+  EXPECT_THAT(s.value(ray, "primitive:s", Type::kFloat, unshaded), ElementsAre(FloatNear(0.25f, 1e-5f)));
+}
+
+TEST(Trace, what_the_shader_of_a_hit_is_told) {
+  RayScene s(world("Surface \"tell\" Translate 0 0 4 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"),
+             {{"tell", "surface tell(output varying float facts[3] = {0,0,0}; output varying color where = 0;"
+                       " output varying float far = 0) {"
+                       "uniform float d = 0; uniform string l = \"\", t = \"\"; rayinfo(\"depth\", d);"
+                       "rayinfo(\"label\", l); rayinfo(\"type\", t); facts[0] = d;"
+                       "if (l == \"mine\") facts[1] = 1; if (t == \"diffuse\") facts[2] = 1;"
+                       "point o; rayinfo(\"origin\", o); where = color(xcomp(o), ycomp(o), zcomp(o));"
+                       "rayinfo(\"length\", far); }"}});
+  EXPECT_EQ(s.messages(), "");
+  slvm::RayOptions o;
+  o.kind = RayKind::kDiffuse;
+  o.label = "mine";
+  slvm::RayOutput facts = RayScene::output(slvm::RayOutput::From::kSurface, "facts", Type::kFloat);
+  facts.elements = 3;
+  TestRay ray{{0.5f, -0.5f, 1}, {0, 0.1f, 1}};
+  EXPECT_THAT(s.trace({ray}, {facts}, o)[0].values[0], ElementsAre(1, 1, 1));
+  EXPECT_THAT(s.value(ray, "surface:where", Type::kColor),
+              ElementsAre(FloatNear(0.5f, 1e-4f), FloatNear(-0.5f, 1e-4f), FloatNear(1, 1e-4f)));
+  EXPECT_THAT(s.value(ray, "surface:far", Type::kFloat), ElementsAre(FloatNear(3 * std::sqrt(1.01f), 1e-4f)));
+}
+
+TEST(Trace, the_eye_of_a_hit_is_where_its_ray_comes_from) {
+  // E is uniform; rays from different places must not share it.
+  RayScene s(world("Surface \"eye\" Translate 0 0 4 Polygon \"P\" [-3 -3 0 3 -3 0 3 3 0 -3 3 0]"),
+             {{"eye", "surface eye(output varying float x = 0) { x = xcomp(E); }"}});
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 40; ++i)
+    rays.push_back({{0.1f * static_cast<float>(i / 2) - 1, 0, 0}});
+  auto hits = s.trace(rays, {RayScene::output(slvm::RayOutput::From::kSurface, "x", Type::kFloat)});
+  for (size_t i = 0; i < rays.size(); ++i)
+    EXPECT_THAT(hits[i].values[0], ElementsAre(FloatNear(rays[i].origin.x, 1e-6f)));
+}
+
+TEST(Trace, visibility_by_kind_of_ray) {
+  struct Case {
+    const char* attribute;
+    bool specular, diffuse, transmission;
+  };
+  for (Case c :
+       {Case{"", false, false, false}, Case{"Attribute \"visibility\" \"trace\" 1", true, true, false},
+        Case{"Attribute \"visibility\" \"int specular\" 1", true, false, false},
+        Case{"Attribute \"visibility\" \"int diffuse\" 1", false, true, false},
+        Case{"Attribute \"visibility\" \"transmission\" \"opaque\"", false, false, true},
+        Case{"Attribute \"visibility\" \"transmission\" \"transparent\"", false, false, false},
+        Case{"Attribute \"visibility\" \"int transmission\" 1", false, false, true},
+        Case{"Attribute \"visibility\" \"trace\" 1 Attribute \"visibility\" \"int diffuse\" 0", true, false,
+             false}}) {
+    SCOPED_TRACE(c.attribute);
+    RayScene s(std::string("WorldBegin ") + c.attribute + " Translate 0 0 4 Disk 0 2 360 WorldEnd");
+    EXPECT_EQ(s.messages(), "");
+    slvm::RayOptions o;
+    EXPECT_EQ(s.distance({{0.1f, 0.1f, 0}}, o) < 10, c.specular);
+    o.kind = RayKind::kDiffuse;
+    EXPECT_EQ(s.distance({{0.1f, 0.1f, 0}}, o) < 10, c.diffuse);
+    EXPECT_EQ(s.transmission({0.1f, 0.1f, 0}, {0.1f, 0.1f, 9}) == Color(0.0f), c.transmission);
+  }
+}
+
+TEST(Trace, subsets_of_groups) {
+  std::string rib;
+  for (const char* groups : {"", "a", "a,b", "b"})
+    rib += std::string("Attribute \"grouping\" \"string membership\" [\"") + groups +
+           "\"] Translate 0 0 2 Polygon \"P\" [-9 -9 0 9 -9 0 9 9 0 -9 9 0] ";
+  RayScene s(world(rib));
+  EXPECT_EQ(s.messages(), "");
+  auto first = [&](std::string_view subset) {
+    slvm::RayOptions o;
+    o.subset = subset;
+    return s.distance({}, o);
+  };
+  EXPECT_EQ(first(""), 2);
+  EXPECT_EQ(first("a"), 4);
+  EXPECT_EQ(first("b"), 6);
+  EXPECT_EQ(first("b a"), 4);
+  EXPECT_EQ(first("-a"), 2);
+  EXPECT_EQ(first("b,-a"), 8);
+  EXPECT_EQ(first("c"), kInfinity);
+}
+
+TEST(Trace, groups_are_joined_and_left) {
+  RayAttributes a;
+  auto set = [&](const char* text) {
+    EXPECT_EQ(set_ray_attribute(a, "grouping", "membership", {Type::kString, 0, {}, {text}}), "");
+    return a.groups;
+  };
+  EXPECT_EQ(set("one, two"), "one two");
+  EXPECT_EQ(set("+three -one"), "two three");
+  EXPECT_EQ(set("four"), "four");
+  EXPECT_EQ(set(""), "");
+}
+
+TEST(Trace, one_sided_surfaces_and_sides_of_rays) {
+  for (bool reversed : {false, true})
+    for (const char* shape :
+         {"Disk 0 2 360", "Scale 1 1 -1 Disk 0 2 360", "ReverseOrientation Disk 0 2 360"}) {
+      SCOPED_TRACE(shape);
+      std::string place = std::string("Translate 0 0 4 ") + (reversed ? "Rotate 180 1 0 0 " : "") + shape;
+      RayScene two(world(place)), one(world("Sides 1 " + place));
+      auto N = two.value({{0.5f, 0.1f, 0}}, "primitive:N", Type::kNormal);
+      bool faces = N[2] < 0;
+      EXPECT_EQ(one.distance({{0.5f, 0.1f, 0}}) < 10, faces);
+      EXPECT_EQ(one.distance({{0.5f, 0.1f, 8}, {0, 0, -1}}) < 10, !faces);
+      slvm::RayOptions o;
+      o.sides = slvm::HitSides::kFront;
+      EXPECT_EQ(two.distance({{0.5f, 0.1f, 0}}, o) < 10, faces);
+      o.sides = slvm::HitSides::kBack;
+      EXPECT_EQ(two.distance({{0.5f, 0.1f, 0}}, o) < 10, !faces);
+      EXPECT_EQ(one.distance({{0.5f, 0.1f, 0}}, o), kInfinity) << "its back is not there";
+    }
+}
+
+TEST(Trace, depth_limits_of_the_objects_on_the_way) {
+  RayScene s(
+      world("Attribute \"trace\" \"int maxspeculardepth\" 3 \"int maxdiffusedepth\" 0 "
+            "Translate 0 0 4 Disk 0 2 360 Attribute \"trace\" \"int maxspeculardepth\" 1 Disk 1 1 360"));
+  auto shot = [&](int primitive, RayKind kind, const slvm::RayFacts& facts) {
+    s.asking_grid(1, 1, primitive).ray = facts;
+    slvm::RayOptions o;
+    o.kind = kind;
+    return s.distance({{0.1f, 0.1f, 0}}, o) != slvm::kNotShot;
+  };
+  slvm::RayFacts camera, second;
+  second.type = "specular";
+  second.depth = second.specular_depth = 2;
+  second.most_specular_depth = 3;
+  EXPECT_TRUE(shot(0, RayKind::kSpecular, camera));
+  EXPECT_FALSE(shot(0, RayKind::kDiffuse, camera)) << "maxdiffusedepth 0";
+  EXPECT_TRUE(shot(0, RayKind::kSpecular, second));
+  second.most_specular_depth = 2;
+  EXPECT_FALSE(shot(0, RayKind::kSpecular, second)) << "the limit of the object before";
+  second.most_specular_depth = 9;
+  EXPECT_TRUE(shot(1, RayKind::kSpecular, second)) << "one more from where it is";
+  EXPECT_TRUE(shot(-1, RayKind::kDiffuse, camera)) << "1 by default";
+  slvm::RayFacts diffuse;
+  diffuse.type = "diffuse";
+  diffuse.depth = diffuse.diffuse_depth = 1;
+  EXPECT_FALSE(shot(-1, RayKind::kSpecular, diffuse)) << "no mirrors by the way of diffuse rays";
+  slvm::RayFacts deep;
+  deep.depth = 10;
+  EXPECT_FALSE(shot(-1, RayKind::kSpecular, deep)) << "Option trace maxdepth";
+}
+
+TEST(Trace, rays_that_weigh_too_little_are_not_shot) {
+  RayScene s("Option \"trace\" \"float minweight\" 0.1 " + world("Translate 0 0 4 Disk 0 2 360"));
+  EXPECT_EQ(s.messages(), "");
+  float half[1] = {0.15f}, tenth[1] = {0.05f};
+  slvm::Grid& grid = s.asking_grid();
+  for (auto& w : grid.ray.weight)
+    w = half;
+  EXPECT_NEAR(s.distance({{0.1f, 0.1f, 0}}), 4, 1e-5f);
+  for (auto& w : grid.ray.weight)
+    w = tenth;
+  EXPECT_EQ(s.distance({{0.1f, 0.1f, 0}}), slvm::kNotShot);
+}
+
+TEST(Trace, cursors_find_one_surface_after_the_other) {
+  // Cards, two of them in the same place; and rays through the edges between faces.
+  RayScene two(world("Translate 0 0 2 Disk 0 3 360 Disk 2 3 360 Disk 2 3 360 Disk 5 3 360")),
+      one(world("Translate 0 0 2 Disk 0 3 360 Disk 2 3 360 Disk 5 3 360"));
+  for (float x : {0.3f, 0.0f}) {
+    RayScene& s = x > 0 ? two : one;
+    slvm::RayCursor cursor;
+    std::vector<float> met;
+    for (int i = 0; i < 9; ++i) {
+      float d = s.trace({{{x, 1e-4f * x, 0}}}, {}, {}, &cursor)[0].distance;
+      if (d == kInfinity) break;
+      met.push_back(d);
+    }
+    std::vector<float> expected = x > 0 ? std::vector<float>{2, 4, 4, 7} : std::vector<float>{2, 4, 7};
+    EXPECT_THAT(met, ::testing::Pointwise(FloatNear(1e-5f), expected)) << x;
+  }
+}
+
+TEST(Trace, default_surface_and_primitive_mode) {
+  RayScene s(world("Color .5 .5 1 Opacity .5 .5 .5 Translate 0 0 4 Disk 0 2 360"));
+  slvm::RayOptions o;
+  EXPECT_THAT(s.value({{0.1f, 0.1f, 0}}, "surface:Ci", Type::kColor),
+              ElementsAre(FloatNear(.25f, 1e-3f), FloatNear(.25f, 1e-3f), FloatNear(.5f, 1e-3f)));
+  o.mode = slvm::HitMode::kPrimitive;
+  EXPECT_THAT(s.value({{0.1f, 0.1f, 0}, {0.3f, 0, 1}}, "surface:Ci", Type::kColor, o),
+              ElementsAre(.25f, .25f, .5f));
+}
+
+TEST(Trace, messages_about_attributes) {
+  RayScene s("WorldBegin Attribute \"visibility\" \"string transmission\" [\"glass\"] "
+             "Attribute \"shade\" \"string diffusehitmode\" [\"none\"] "
+             "Attribute \"trace\" \"float bias\" -1 WorldEnd");
+  EXPECT_THAT(s.messages(),
+              ::testing::HasSubstr("Attribute: \"transmission\" is \"transparent\", \"opaque\", \"Os\", "
+                                   "\"shader\", 0 or 1"));
+  EXPECT_THAT(s.messages(),
+              ::testing::HasSubstr("Attribute: \"diffusehitmode\" is \"primitive\" or \"shader\""));
+  EXPECT_THAT(s.messages(), ::testing::HasSubstr("Attribute: \"bias\" takes one number, 0 or more"));
+}
+
+} // namespace
+} // namespace render::testing
