@@ -32,7 +32,7 @@ target_compile_options(anemone_flags INTERFACE -ffp-contract=off -fno-math-errno
 set(instrumentation "")
 if(ANEMONE_SANITIZE)
   list(APPEND instrumentation -fsanitize=${ANEMONE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
-    -Wno-maybe-uninitialized) # instrumented code of the standard library looks so to GCC
+    -Wno-maybe-uninitialized -Wno-clobbered) # instrumented code of the standard library looks so to GCC
   target_link_options(anemone_flags INTERFACE -fsanitize=${ANEMONE_SANITIZE})
 endif()
 if(ANEMONE_FUZZ)

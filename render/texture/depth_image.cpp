@@ -1,7 +1,13 @@
+// Depth images in TIFF files, and in others by the image module.
 #include "render/texture/depth_image.h"
 
+#include "render/texture/image_file.h"
 #include "render/texture/image_module.h"
 #include "render/texture/tiff_file.h"
+#include "slvm/support/whole_file.h"
+
+#include <algorithm>
+#include <cstring>
 
 namespace render {
 
@@ -9,6 +15,27 @@ std::string read_depth_image(const std::string& path, DepthImage& out) {
   if (read_depth_tiff(path, out)) return {};
   const ImageModule& module = image_module();
   return module.problem.empty() ? module.read_depth(path, out) : module.problem;
+}
+
+std::string write_depth_image(const std::string& path, const DepthImage& image,
+                              const std::string& texture_format) {
+  slvm::WholeFile whole(path);
+  ImageFile file;
+  file.path = whole.temporary();
+  file.format = "tiff";
+  file.texture_format = texture_format;
+  file.type = PixelType::kFloat;
+  file.width = file.full_width = image.width;
+  file.height = file.full_height = image.height;
+  file.channels = {"Z"};
+  if (image.world_to_camera.size() == 16)
+    std::copy_n(image.world_to_camera.begin(), 16, file.world_to_camera.begin());
+  if (image.world_to_screen.size() == 16)
+    std::copy_n(image.world_to_screen.begin(), 16, file.world_to_screen.begin());
+  file.pixels.resize(image.depth.size() * sizeof(float));
+  std::memcpy(file.pixels.data(), image.depth.data(), file.pixels.size());
+  std::string why = write_tiff(file);
+  return why.empty() ? whole.commit() : why;
 }
 
 } // namespace render

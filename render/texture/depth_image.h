@@ -15,5 +15,9 @@ struct DepthImage {
 
 /// "" or why there is none.
 std::string read_depth_image(const std::string& path, DepthImage& out);
+/// As a TIFF file of floats, whole or not at all. `texture_format`: "Shadow" for a shadow map, else empty. ""
+/// or what went wrong.
+std::string write_depth_image(const std::string& path, const DepthImage& image,
+                              const std::string& texture_format = {});
 
 } // namespace render

@@ -1,13 +1,9 @@
 #include "render/texture/make_maps.h"
 
 #include "render/texture/depth_image.h"
-#include "render/texture/image_file.h"
 #include "render/texture/image_module.h"
 #include "render/texture/tiff_file.h"
-#include "slvm/support/whole_file.h"
 
-#include <algorithm>
-#include <cstring>
 #include <filesystem>
 
 namespace render {
@@ -16,24 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A shadow map of a depth image in a TIFF file: the same numbers, called a shadow map. Lookups take the
-/// finest level only, so that no others are made.
+/// Lookups take the finest level only, so that no others are made.
 std::string write_shadow(const DepthImage& depths, const std::string& shadow) {
-  slvm::WholeFile whole(shadow);
-  ImageFile file;
-  file.path = whole.temporary();
-  file.format = "tiff";
-  file.texture_format = "Shadow";
-  file.type = PixelType::kFloat;
-  file.width = file.full_width = depths.width;
-  file.height = file.full_height = depths.height;
-  file.channels = {"Z"};
-  std::copy_n(depths.world_to_camera.begin(), 16, file.world_to_camera.begin());
-  std::copy_n(depths.world_to_screen.begin(), 16, file.world_to_screen.begin());
-  file.pixels.resize(depths.depth.size() * sizeof(float));
-  std::memcpy(file.pixels.data(), depths.depth.data(), file.pixels.size());
-  std::string why = write_tiff(file);
-  if (why.empty()) why = whole.commit();
+  std::string why = write_depth_image(shadow, depths, "Shadow");
   return why.empty() ? why : "cannot make \"" + shadow + "\": " + why;
 }
 
