@@ -25,8 +25,12 @@ public:
     keep_[from] = keep_[to] = 1;
     if (to - from < 2) return;
     bool wide = segment_ * static_cast<float>(to - from) > kOutlineInterval;
-    if (!wide && glm::distance(points_[from], points_[to]) <= longest_) return;
     size_t middle = (from + to) / 2;
+    // The ends of an arc that turns back at the silhouette may be close together: its middle tells.
+    float length = std::max({glm::distance(points_[from], points_[to]),
+                             2 * glm::distance(points_[from], points_[middle]),
+                             2 * glm::distance(points_[middle], points_[to])});
+    if (!wide && length <= longest_) return;
     run(from, middle);
     run(middle, to);
   }

@@ -88,5 +88,20 @@ TEST(Seams, concave_polygons) {
             0);
 }
 
+// The seam of a torus turns back at the silhouette: its outline must reach as far as its neighbours'.
+TEST(Seams, a_side_that_turns_back_at_the_silhouette_leaves_no_notch) {
+  Rendered r = render_text(
+      "Format 160 120 1 PixelSamples 4 4 Projection \"perspective\" \"fov\" 30 WorldBegin Translate 0 0 5 "
+      "Rotate 60 1 0 0 Torus 0.8 0.35 0 360 360 WorldEnd");
+  auto column = [&](int x) {
+    double sum = 0;
+    for (int y = 0; y < 60; ++y)
+      sum += r.alpha(x, y);
+    return sum;
+  };
+  for (int x = 74; x < 86; ++x)
+    EXPECT_NEAR(column(x), (column(x - 4) + column(x + 4)) / 2, 0.2) << x;
+}
+
 } // namespace
 } // namespace render::testing
