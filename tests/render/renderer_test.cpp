@@ -1,9 +1,7 @@
 // The whole chain: RIB with RSL shaders, compiled by slc, run by the virtual machine, rendered to pixels.
 // Scenes have answers known by hand.
 #include "render/renderer.h"
-#include "slc/compiler.h"
-#include "slvm/evaluator.h"
-#include "slvm/format/slo.h"
+#include "tests/render/shader_texts.h"
 #include "tests/temp_folder.h"
 
 #include <OpenImageIO/imageio.h>
@@ -59,17 +57,7 @@ protected:
 
 private:
   slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path) {
-    auto it = shaders_.find(name);
-    if (it == shaders_.end()) return no_such_shader(name, path);
-    slvm::SourceManager sources;
-    slvm::Diagnostics diagnostics;
-    slc::CompileOptions options;
-    auto evaluator = slvm::make_kernel_evaluator();
-    options.evaluator = evaluator.get();
-    auto out = slc::Compiler().compile(sources.add(name + ".sl", it->second), options, sources, diagnostics);
-    if (out.empty()) return slvm::Error{format_diagnostics(diagnostics, sources)};
-    auto bytes = slvm::write_slo(out[0].program);
-    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return testing::compile_shader_text(shaders_, name, path);
   }
 
   void read(const std::string& file) {

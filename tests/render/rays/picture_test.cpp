@@ -1,9 +1,7 @@
 // Whole pictures whose shaders shoot rays: the same with any number of threads, and right where that is
 // known.
 #include "render/renderer.h"
-#include "slc/compiler.h"
-#include "slvm/evaluator.h"
-#include "slvm/format/slo.h"
+#include "tests/render/shader_texts.h"
 #include "tests/temp_folder.h"
 
 #include <OpenImageIO/imageio.h>
@@ -68,17 +66,7 @@ protected:
 
 private:
   slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path) {
-    auto it = shaders_.find(name);
-    if (it == shaders_.end()) return no_such_shader(name, path);
-    slvm::SourceManager sources;
-    slvm::Diagnostics diagnostics;
-    slc::CompileOptions options;
-    auto evaluator = slvm::make_kernel_evaluator();
-    options.evaluator = evaluator.get();
-    auto out = slc::Compiler().compile(sources.add(name + ".sl", it->second), options, sources, diagnostics);
-    if (out.empty()) return slvm::Error{format_diagnostics(diagnostics, sources)};
-    auto bytes = slvm::write_slo(out[0].program);
-    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return testing::compile_shader_text(shaders_, name, path);
   }
 
   anemone::test::TempFolder folder_;

@@ -1,10 +1,9 @@
 // Scenes for tests of rays.
 #include "tests/render/rays/ray_scene.h"
 
+#include "tests/render/shader_texts.h"
+
 #include "render/state/interpreter.h"
-#include "slc/compiler.h"
-#include "slvm/evaluator.h"
-#include "slvm/format/slo.h"
 
 #include <gtest/gtest.h>
 
@@ -36,17 +35,7 @@ RayScene::RayScene(const std::string& rib, std::map<std::string, std::string> sh
 RayScene::~RayScene() = default;
 
 slvm::Result<std::string> RayScene::load(const std::string& name) const {
-  auto it = shaders_.find(name);
-  if (it == shaders_.end()) return no_such_shader(name, {});
-  slvm::SourceManager sources;
-  slvm::Diagnostics diagnostics;
-  slc::CompileOptions options;
-  auto evaluator = slvm::make_kernel_evaluator();
-  options.evaluator = evaluator.get();
-  auto out = slc::Compiler().compile(sources.add(name + ".sl", it->second), options, sources, diagnostics);
-  if (out.empty()) return slvm::Error{format_diagnostics(diagnostics, sources)};
-  auto bytes = slvm::write_slo(out[0].program);
-  return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return compile_shader_text(shaders_, name);
 }
 
 slvm::Grid& RayScene::asking_grid(int nu, int nv, int primitive) {
