@@ -13,8 +13,6 @@ using slvm::TextureLookup;
 
 namespace {
 
-constexpr std::string_view kRays = "raytrace";
-constexpr const char* kNoRays = "asks for rays, which nobody traces here";
 constexpr const char* kNoFile = "no such file in the texture search path";
 
 } // namespace
@@ -66,7 +64,6 @@ std::string TextureMaps::texture(const TextureLookup& l) {
 }
 
 std::string TextureMaps::environment(const TextureLookup& l) {
-  if (l.map == kRays) return kNoRays;
   const File& file = file_of(l.map);
   if (!file.exists) return kNoFile;
   ImageLookups* images = lookups();
@@ -117,7 +114,6 @@ std::shared_ptr<const ShadowMap> TextureMaps::shadow_map(const std::string& name
 }
 
 std::string TextureMaps::shadow(const TextureLookup& l) {
-  if (l.map == kRays) return kNoRays;
   std::string problem;
   std::shared_ptr<const ShadowMap> map = shadow_map(std::string(l.map), problem);
   if (!map) return problem;
