@@ -135,6 +135,7 @@ Image FrameRenderer::run(FrameReport& report) {
     report.shaded_grids += w.report.shaded_grids;
     report.shaded_points += w.report.shaded_points;
     report.micropolygons += w.report.micropolygons;
+    report.variables |= w.report.variables;
     report.bad_colours += w.report.bad_colours;
     for (const auto& [name, cost] : w.report.shaders) {
       ShaderCost& sum = report.shaders[name];
@@ -306,6 +307,7 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
   for (size_t i = 0; i < moved.size() && options_.sample_motion; ++i)
     add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
   if (solid) out->cut_near = batch.solids.at(solid).cut_near[primitive.state->solid_primitive];
+  worker.report.variables |= out->variables;
   worker.report.bad_colours += out->bad_colours;
   return out;
 }

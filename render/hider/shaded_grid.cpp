@@ -79,10 +79,12 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   for (const AovChannel& c : aovs)
     out.aov_floats += c.components;
   out.aov.assign(points * static_cast<size_t>(out.aov_floats), 0.0f);
-  for (const AovChannel& c : aovs) {
+  for (size_t v = 0; v < aovs.size(); ++v) {
+    const AovChannel& c = aovs[v];
     if (c.source != AovChannel::Source::kVariable) continue;
     const slvm::Planes* planes = shader.output(primitive, grid, c.name);
     if (!planes || !planes->data) continue;
+    if (v < 64) out.variables |= uint64_t{1} << v;
     int components = std::min(c.components, slvm::components(planes->type));
     for (size_t k = 0; k < points; ++k)
       for (int i = 0; i < components; ++i)

@@ -29,6 +29,7 @@ struct ShadedGrid {
   bool matte = false;
   LevelPart level; ///< the samples that see it
   bool smooth = false;
+  uint64_t variables = 0; ///< a bit for each of the first 64 AOVs that this grid has a value for
   size_t bad_colours = 0; ///< points whose colour was not a finite number; they became black and opaque
 
   size_t points() const { return static_cast<size_t>(nu) * static_cast<size_t>(nv); }

@@ -115,21 +115,24 @@ void LazyContent::make(LazyBatch& lazy) {
     split_primitive(batch.owned[k], k, split_, batch.tasks);
   batch.measure_solids(camera_);
   batch.slots = std::make_unique<GridSlot[]>(batch.tasks.size());
-  auto waiting = [&](const BucketRange& r, auto&& gone) {
+  lazy.tasks_of.resize(lazy.buckets.count());
+  auto for_each = [&](const BucketRange& r, auto&& f) {
     for (int j = r.j0; j <= r.j1; ++j)
       for (int i = r.i0; i <= r.i1; ++i)
-        if (lazy.left[lazy.buckets.number(i, j)]) gone(i, j);
+        f(i, j, lazy.buckets.number(i, j));
   };
-  for (size_t t = 0; t < batch.tasks.size(); ++t) {
-    BucketRange r =
-        layout_.touched(batch.tasks[t].raster_min, batch.tasks[t].raster_max).within(lazy.buckets);
-    size_t users = r.count();
-    waiting(r, [&](int, int) { --users; });
-    batch.slots[t].users = static_cast<uint32_t>(users);
+  for (uint32_t t = 0; t < batch.tasks.size(); ++t) {
+    const GridTask& task = batch.tasks[t];
+    for_each(layout_.touched(task.raster_min, task.raster_max).within(lazy.buckets), [&](int, int, size_t bucket) {
+      if (lazy.left[bucket]) return;
+      lazy.tasks_of[bucket].push_back(t);
+      ++batch.slots[t].users;
+    });
   }
   batch.procedurals = lazy_batches(std::move(content.procedurals), lazy.id, camera_, layout_, lazy.buckets);
   for (const auto& inner : batch.procedurals)
-    waiting(inner->buckets, [&](int i, int j) {
+    for_each(inner->buckets, [&](int i, int j, size_t bucket) {
+      if (!lazy.left[bucket]) return;
       inner->left[inner->buckets.number(i, j)] = true;
       --inner->still_in;
     });
@@ -141,11 +144,8 @@ void LazyContent::make(LazyBatch& lazy) {
 void LazyContent::open(LazyBatch& lazy, int i, int j, BucketQueue& queue) {
   std::lock_guard lock(lazy.mutex);
   if (!lazy.made) make(lazy);
-  for (uint32_t t = 0; t < lazy.batch.tasks.size(); ++t) {
-    const GridTask& task = lazy.batch.tasks[t];
-    if (layout_.touched(task.raster_min, task.raster_max).within(lazy.buckets).contains(i, j))
-      queue.add({task.zmin, &lazy.batch, t, nullptr});
-  }
+  for (uint32_t t : lazy.tasks_of[lazy.buckets.number(i, j)])
+    queue.add({lazy.batch.tasks[t].zmin, &lazy.batch, t, nullptr});
   for (const auto& inner : lazy.batch.procedurals)
     if (inner->buckets.contains(i, j)) queue.add({inner->seen.zmin, nullptr, 0, inner.get()});
 }
@@ -154,11 +154,8 @@ void LazyContent::leave(LazyBatch& lazy, int i, int j, bool was_open) {
   std::lock_guard lock(lazy.mutex);
   lazy.left[lazy.buckets.number(i, j)] = true;
   if (lazy.made && !was_open) {
-    for (uint32_t t = 0; t < lazy.batch.tasks.size(); ++t) {
-      const GridTask& task = lazy.batch.tasks[t];
-      if (layout_.touched(task.raster_min, task.raster_max).within(lazy.buckets).contains(i, j))
-        lazy.batch.slots[t].leave();
-    }
+    for (uint32_t t : lazy.tasks_of[lazy.buckets.number(i, j)])
+      lazy.batch.slots[t].leave();
     for (const auto& inner : lazy.batch.procedurals)
       if (inner->buckets.contains(i, j)) leave(*inner, i, j, false);
   }
@@ -170,6 +167,7 @@ void LazyContent::leave(LazyBatch& lazy, int i, int j, bool was_open) {
   lazy.batch.solids.clear();
   lazy.batch.primitives = {};
   lazy.batch.owned = {};
+  lazy.tasks_of = {};
 }
 
 } // namespace render

@@ -108,6 +108,7 @@ struct LazyBatch {
   std::vector<bool> left; ///< by bucket of the range: it will not ask any more
   size_t still_in = 0;    ///< buckets that have not left
   TaskBatch batch;
+  std::vector<std::vector<uint32_t>> tasks_of; ///< by bucket of the range: what may touch it
 };
 
 /// Makes what procedurals hold, with shaders bound and all; given the pixels their bound covers. Called by

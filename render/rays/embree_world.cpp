@@ -238,7 +238,8 @@ RTCRay place(const RTCRay& ray, const Matrix4& m) {
   return out;
 }
 
-void intersect_item(const RTCIntersectFunctionNArguments* args) {
+/// What rays of both kinds do at an item: trace(faces, ray) takes the ray in the item's own space.
+template <class Arguments, class Trace> void visit_item(const Arguments* args, RTCRay& ray, Trace&& trace) {
   if (!args->valid[0]) return;
   Query& q = query_of(args->context, false);
   const auto& world = *static_cast<const RayWorld::Impl*>(args->geometryUserPtr);
@@ -246,37 +247,27 @@ void intersect_item(const RTCIntersectFunctionNArguments* args) {
   if (!q.enter(item, args->primID)) return;
   const FaceScene* faces = world.faces(args->primID);
   if (!faces) return;
+  const RTCRay whole = ray;
+  if (item.placed) ray = place(ray, item.to_item);
+  trace(q, faces_of(faces), q.filters() ? filter_hit : nullptr);
+  const float reached = ray.tfar;
+  ray = whole;
+  ray.tfar = reached;
+}
+
+void intersect_item(const RTCIntersectFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  float before = ray.ray.tfar;
-  RTCFilterFunctionN filter = q.filters() ? filter_hit : nullptr;
-  if (item.placed) {
-    RTCRayHit local{place(ray.ray, item.to_item), ray.hit};
-    intersect(faces_of(faces), q.inner, filter, local);
-    ray.ray.tfar = local.ray.tfar;
-    ray.hit = local.hit;
-  } else {
-    intersect(faces_of(faces), q.inner, filter, ray);
-  }
-  if (ray.ray.tfar < before) q.hit_item = args->primID;
+  visit_item(args, ray.ray, [&](Query& q, auto faces, RTCFilterFunctionN filter) {
+    const float before = ray.ray.tfar;
+    intersect(faces, q.inner, filter, ray);
+    if (ray.ray.tfar < before) q.hit_item = args->primID;
+  });
 }
 
 void occlude_item(const RTCOccludedFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  Query& q = query_of(args->context, false);
-  const auto& world = *static_cast<const RayWorld::Impl*>(args->geometryUserPtr);
-  const WorldItem& item = world.items[args->primID];
-  if (!q.enter(item, args->primID)) return;
-  const FaceScene* faces = world.faces(args->primID);
-  if (!faces) return;
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  RTCFilterFunctionN filter = q.filters() ? filter_hit : nullptr;
-  if (item.placed) {
-    RTCRay local = place(ray, item.to_item);
-    occluded(faces_of(faces), q.inner, filter, local);
-    ray.tfar = local.tfar;
-  } else {
-    occluded(faces_of(faces), q.inner, filter, ray);
-  }
+  visit_item(args, ray,
+             [&](Query& q, auto faces, RTCFilterFunctionN filter) { occluded(faces, q.inner, filter, ray); });
 }
 
 void bound_item(const RTCBoundsFunctionArguments* args) {

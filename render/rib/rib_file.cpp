@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -23,18 +22,14 @@ std::string reason() {
 
 slvm::Result<std::unique_ptr<RibFile>> RibFile::create(const std::string& name, bool gzip) {
   const char* mode = gzip ? "wb" : "wbT";
-  bool standard = name == "-";
-  std::string temporary = standard ? "" : fmt::format("{}.{}.part", name, ::getpid());
-  gzFile stream = standard ? gzdopen(::dup(STDOUT_FILENO), mode) : gzopen(temporary.c_str(), mode);
+  auto file = name == "-" ? nullptr : std::make_unique<slvm::WholeFile>(name);
+  gzFile stream = file ? gzopen(file->temporary().c_str(), mode) : gzdopen(::dup(STDOUT_FILENO), mode);
   if (!stream) return slvm::Error{fmt::format("cannot write \"{}\": {}", name, reason())};
-  return std::unique_ptr<RibFile>(new RibFile(name, std::move(temporary), stream));
+  return std::unique_ptr<RibFile>(new RibFile(name, std::move(file), stream));
 }
 
 RibFile::~RibFile() {
-  if (!stream_) return;
-  gzclose(static_cast<gzFile>(stream_));
-  std::error_code ignored;
-  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+  if (stream_) gzclose(static_cast<gzFile>(stream_));
 }
 
 void RibFile::write(std::string_view text) {
@@ -48,16 +43,13 @@ void RibFile::write(std::string_view text) {
 
 std::string RibFile::finish() {
   bool closed = gzclose(static_cast<gzFile>(std::exchange(stream_, nullptr))) == Z_OK;
-  std::error_code error;
   std::string why;
   if (failed_ || !closed)
     why = reason();
-  else if (!temporary_.empty())
-    std::filesystem::rename(temporary_, name_, error);
-  if (error) why = error.message();
-  if (why.empty()) return {};
-  std::filesystem::remove(temporary_, error);
-  return fmt::format("cannot write \"{}\": {}", name_, why);
+  else if (file_)
+    why = file_->commit();
+  file_.reset();
+  return why.empty() ? why : fmt::format("cannot write \"{}\": {}", name_, why);
 }
 
 } // namespace render

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "slvm/support/result.h"
+#include "slvm/support/whole_file.h"
 
 #include <memory>
 #include <string>
@@ -24,10 +25,11 @@ public:
   std::string finish();
 
 private:
-  RibFile(std::string name, std::string temporary, void* stream)
-      : name_(std::move(name)), temporary_(std::move(temporary)), stream_(stream) {}
+  RibFile(std::string name, std::unique_ptr<slvm::WholeFile> file, void* stream)
+      : name_(std::move(name)), file_(std::move(file)), stream_(stream) {}
 
-  std::string name_, temporary_;
+  std::string name_;
+  std::unique_ptr<slvm::WholeFile> file_; ///< null: standard output
   void* stream_; ///< zlib's
   bool failed_ = false;
 };

@@ -62,6 +62,7 @@ private:
   void receive_from_light(const std::vector<TokenArg>& tokens);
   void emission(const EmissionStmt& s);
   void gather(const GatherStmt& s);
+  template <class Body> void rounds(const Stmt& s, ir::Op op, uint32_t index, Values args, Body&& make_body);
   /// What the call before the loop reads.
   Values gather_args(const GatherStmt& s);
   void receive_from_ray(const std::vector<TokenArg>& tokens);

@@ -219,13 +219,9 @@ void Lowering::receive_from_light(const std::vector<TokenArg>& tokens) {
   }
 }
 
-void Lowering::illuminance(const IlluminanceStmt& s) {
-  store_changed(true); // lights may ask for output parameters
-  Values args{s.category ? value(*s.category) : b_.string(""), value(*s.position),
-              s.axis ? value(*s.axis) : zero(Type::kVector), s.angle ? value(*s.angle) : zero(Type::kFloat)};
-  for (Global g : {Global::kL, Global::kCl, Global::kOl})
-    global_slot(g); // bound for each light
-  const bool sends = begin_sending(s.tokens);
+/// A loop whose rounds the machine decides on: lights, or rays.
+template <class Body>
+void Lowering::rounds(const Stmt& s, ir::Op op, uint32_t index, Values args, Body&& make_body) {
   Frame frame{true, in_scope(), nullptr};
   Values initial = values_for(frame.carried);
   args.insert(args.end(), initial.begin(), initial.end());
@@ -234,17 +230,28 @@ void Lowering::illuminance(const IlluminanceStmt& s) {
   open_carried(body, frame.carried);
   ir::Region* outer = b_.region();
   b_.set_region(&body);
-  receive_from_light(s.tokens);
-  statement(*s.body);
+  make_body();
   if (!b_.terminated()) b_.next_round(0, values_for(frame.carried));
   b_.set_region(outer);
   frames_.pop_back();
   std::vector<ir::Region> regions;
   regions.push_back(std::move(body));
   back_to(s);
-  ir::InstId id = b_.region_inst(ir::Op::kIlluminance, s.axis ? 1 : 0, std::move(args), std::move(regions),
-                                 types_of(frame.carried));
+  ir::InstId id = b_.region_inst(op, index, std::move(args), std::move(regions), types_of(frame.carried));
   set_values(frame.carried, m_.insts[id].results);
+}
+
+void Lowering::illuminance(const IlluminanceStmt& s) {
+  store_changed(true); // lights may ask for output parameters
+  Values args{s.category ? value(*s.category) : b_.string(""), value(*s.position),
+              s.axis ? value(*s.axis) : zero(Type::kVector), s.angle ? value(*s.angle) : zero(Type::kFloat)};
+  for (Global g : {Global::kL, Global::kCl, Global::kOl})
+    global_slot(g); // bound for each light
+  const bool sends = begin_sending(s.tokens);
+  rounds(s, ir::Op::kIlluminance, s.axis ? 1 : 0, std::move(args), [&] {
+    receive_from_light(s.tokens);
+    statement(*s.body);
+  });
   if (sends) b_.call(slvm::shadeop_overloads("lightsend")[2], Values(), {});
 }
 
@@ -319,30 +326,14 @@ void Lowering::receive_from_ray(const std::vector<TokenArg>& tokens) {
 
 // A loop over rays: each round sets the variables, then takes one of the two blocks.
 void Lowering::gather(const GatherStmt& s) {
-  Values args = gather_args(s);
-  Frame frame{true, in_scope(), nullptr};
-  Values initial = values_for(frame.carried);
-  args.insert(args.end(), initial.begin(), initial.end());
-  frames_.push_back(frame);
-  ir::Region body;
-  open_carried(body, frame.carried);
-  ir::Region* outer = b_.region();
-  b_.set_region(&body);
-  back_to(s);
-  const Type hit_type = Type::kBool;
-  const ValueId hit = b_.call(slvm::shadeop_overloads("gatherhit")[0], {}, std::span(&hit_type, 1))[0];
-  receive_from_ray(s.tokens);
-  two_sided(hit, s.body, s.else_body);
-  if (!b_.terminated()) b_.next_round(0, values_for(frame.carried));
-  b_.set_region(outer);
-  frames_.pop_back();
-  std::vector<ir::Region> regions;
-  regions.push_back(std::move(body));
-  back_to(s);
   const ShadeopId row = slvm::shadeop_overloads(s.is_traverse ? "traverse" : "gather")[0];
-  ir::InstId id =
-      b_.region_inst(ir::Op::kGather, row, std::move(args), std::move(regions), types_of(frame.carried));
-  set_values(frame.carried, m_.insts[id].results);
+  rounds(s, ir::Op::kGather, row, gather_args(s), [&] {
+    back_to(s);
+    const Type hit_type = Type::kBool;
+    const ValueId hit = b_.call(slvm::shadeop_overloads("gatherhit")[0], {}, std::span(&hit_type, 1))[0];
+    receive_from_ray(s.tokens);
+    two_sided(hit, s.body, s.else_body);
+  });
 }
 
 } // namespace slc

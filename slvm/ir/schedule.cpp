@@ -607,18 +607,23 @@ private:
     if (is_block)
       for (const LowOperand& r : frames_.back().merge)
         out_.insts[begin].begins.push_back(r.value);
+    emit_rounds(inst, begin, is_block ? Opcode::k_endblock : Opcode::k_endloop);
+  }
+
+  /// The body of a loop or block that begins with instruction `begin`, and its end.
+  void emit_rounds(const Inst& inst, uint32_t begin, Opcode end_opcode) {
+    const bool once = end_opcode == Opcode::k_endblock;
     open_mask();
     for (ValueId p : inst.regions[0].params)
       level_[p] = depth();
     ends_.push_back({});
     emit_region(inst.regions[0]);
     where_ = inst.where;
-    uint32_t end = is_block ? add(Opcode::k_endblock, {target(0)})
-                            : add(Opcode::k_endloop, {target(begin + 1), target(0)});
+    uint32_t end = once ? add(end_opcode, {target(0)}) : add(end_opcode, {target(begin + 1), target(0)});
     close(end);
     out_.insts[begin].operands[0] = target(end);
-    jump_to_end(end, is_block ? 0 : 1);
-    if (!is_block) out_.loops.emplace_back(begin, end);
+    jump_to_end(end, once ? 0 : 1);
+    if (!once) out_.loops.emplace_back(begin, end);
     close_mask();
     frames_.pop_back();
   }
@@ -631,18 +636,7 @@ private:
       fixed.push_back(use(inst.args[i]));
     uint32_t begin =
         add(Opcode::k_illuminance, {target(0), word(inst.index), fixed[0], fixed[1], fixed[2], fixed[3]});
-    open_mask();
-    for (ValueId p : inst.regions[0].params)
-      level_[p] = depth();
-    ends_.push_back({});
-    emit_region(inst.regions[0]);
-    uint32_t end = add(Opcode::k_endilluminance, {target(begin + 1), target(0)});
-    close(end);
-    out_.insts[begin].operands[0] = target(end);
-    jump_to_end(end, 1);
-    out_.loops.emplace_back(begin, end);
-    close_mask();
-    frames_.pop_back();
+    emit_rounds(inst, begin, Opcode::k_endilluminance);
   }
 
   /// Whether lanes can leave the loop that owns `region` before its last round.
@@ -663,19 +657,7 @@ private:
     frames_.push_back({&inst, begin_carried(inst)});
     emit_call(inst);
     uint32_t begin = add(Opcode::k_gather, {target(0), word(lanes_leave(inst.regions[0]))});
-    open_mask();
-    for (ValueId p : inst.regions[0].params)
-      level_[p] = depth();
-    ends_.push_back({});
-    emit_region(inst.regions[0]);
-    where_ = inst.where;
-    uint32_t end = add(Opcode::k_endgather, {target(begin + 1), target(0)});
-    close(end);
-    out_.insts[begin].operands[0] = target(end);
-    jump_to_end(end, 1);
-    out_.loops.emplace_back(begin, end);
-    close_mask();
-    frames_.pop_back();
+    emit_rounds(inst, begin, Opcode::k_endgather);
   }
 
   void emit_emitter(InstId id) {

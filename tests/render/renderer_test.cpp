@@ -105,6 +105,15 @@ TEST_F(RendererTest, primitive_variables_override_parameters) {
   EXPECT_NEAR(value(12, 8, 0), 2.5, 0.1f);
 }
 
+TEST_F(RendererTest, a_display_of_a_variable_that_nobody_has_is_told) {
+  shaders_["show"] = kShow;
+  const std::string scene = "WorldBegin Surface \"show\" \"k\" .5" + kSheet + "WorldEnd";
+  EXPECT_EQ(render(scene, "varying color nosuch"),
+            "warning: no surface in the picture has a variable \"nosuch\"; its channels are 0 [-Wdisplay]\n");
+  EXPECT_EQ(render(scene, "varying normal N"), "");
+  EXPECT_EQ(render("WorldBegin WorldEnd", "varying color nosuch"), ""); // nothing that could have it
+}
+
 TEST_F(RendererTest, one_distant_light_on_a_tilted_plane) {
   shaders_["matte"] = kMatte;
   shaders_["distant"] = kDistant;
