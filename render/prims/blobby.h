@@ -74,9 +74,10 @@ private:
   float smallest_ = kInfinity;
 };
 
-/// Appends the surface as smooth quadrilaterals, about 24 across the smallest leaf where that is not too
-/// many. Varying and vertex variables have a value for each leaf and are mixed by the leaves' fields.
-void add_blobby(const BlobbyField& field, std::span<const TypedParam> vars,
+/// Appends the surface as smooth quadrilaterals about as large as `wanted`, in object space: between 12 and
+/// 24 across the smallest leaf where that is not too many. Varying and vertex variables have a value for each
+/// leaf and are mixed by the leaves' fields.
+void add_blobby(const BlobbyField& field, float wanted, std::span<const TypedParam> vars,
                 const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
 
 } // namespace render

@@ -35,12 +35,14 @@ private:
 
 class NetMaker {
 public:
-  NetMaker(const BlobbyField& field, std::span<const TypedParam> vars) : field_(field), vars_(vars) {
+  NetMaker(const BlobbyField& field, float wanted, std::span<const TypedParam> vars)
+      : field_(field), vars_(vars) {
     Box box = field.bound();
     Vec3d size(box.max - box.min);
-    constexpr double kAcross = 24, kMostWork = 3e8, kMostCells = 6e6;
+    constexpr double kMostAcross = 24, kFewestAcross = 12, kMostWork = 3e8, kMostCells = 6e6;
     double most = std::min(kMostCells, kMostWork / static_cast<double>(field.leaves() + 1));
-    cell_ = static_cast<double>(field.smallest()) / kAcross;
+    auto smallest = static_cast<double>(field.smallest());
+    cell_ = std::clamp(static_cast<double>(wanted), smallest / kMostAcross, smallest / kFewestAcross);
     auto cells = [&](double c) { return (size.x / c + 3) * (size.y / c + 3) * (size.z / c + 3); };
     cell_ = std::max(cell_, 1e-6 * std::max({size.x, size.y, size.z}));
     while (cells(cell_) > most)
@@ -197,10 +199,10 @@ private:
 
 } // namespace
 
-void add_blobby(const BlobbyField& field, std::span<const TypedParam> vars,
+void add_blobby(const BlobbyField& field, float wanted, std::span<const TypedParam> vars,
                 const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
   if (field.bound().empty()) return; // constants only: no surface anywhere
-  NetMaker(field, vars).run(state, out);
+  NetMaker(field, wanted, vars).run(state, out);
 }
 
 } // namespace render

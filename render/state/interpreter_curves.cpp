@@ -63,6 +63,28 @@ std::shared_ptr<const BlobbyGround> Interpreter::blobby_ground(const RequestCall
   return std::make_shared<BlobbyGround>(std::move(image), ctm_ * inverse_or_identity(scene_.world_to_camera));
 }
 
+namespace {
+
+/// About the side of a micropolygon in object space, where the part of `bound` that is nearest to the camera
+/// is; 0 where that is behind the near plane.
+float micropolygon_in_object(const Box& bound, const PrimitiveState& state, const Options& options) {
+  Camera camera(options);
+  Box box = transform_box(state.object_to_camera, bound);
+  for (const auto& key : state.motion)
+    box.add(transform_box(key.value, bound));
+  if (camera.perspective() && !(box.min.z > camera.near_plane())) return 0;
+  Vec2 here = camera.project({0, 0, box.min.z});
+  float pixels = std::max(glm::distance(here, camera.project({1, 0, box.min.z})),
+                          glm::distance(here, camera.project({0, 1, box.min.z})));
+  float longest = 0; // that a unit of object space is in camera space
+  for (Vec3 axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)})
+    longest = std::max(longest, glm::length(transform_vector(state.object_to_camera, axis)));
+  float side = std::sqrt(state.attributes->shading_rate) / (pixels * longest);
+  return side < kInfinity ? side : 0;
+}
+
+} // namespace
+
 void Interpreter::blobby(const RequestCall& call) {
   auto field = BlobbyField::make(call.integers(1), call.numbers(2),
                                  [&](int string) { return blobby_ground(call, string); });
@@ -75,7 +97,11 @@ void Interpreter::blobby(const RequestCall& call) {
     warn(call,
          fmt::format("'nleaf' is {}, but the code has {} leaves, and that counts", call.integer(0), leaves));
   std::vector<TypedParam> vars = primitive_vars(call, {1, leaves, leaves, leaves});
-  add_blobby(*field, vars, primitive_state(), scene_.primitives);
+  auto state = primitive_state();
+  // Quadrilaterals of two micropolygons a side, with smooth normals, show no corners.
+  float wanted =
+      field->bound().empty() ? 0 : 2 * micropolygon_in_object(field->bound(), *state, scene_.options);
+  add_blobby(*field, wanted, vars, state, scene_.primitives);
 }
 
 } // namespace render

@@ -63,7 +63,7 @@ double visit(const Scene& s, const std::function<void(Vec3 P, Vec3 N)>& f) {
 }
 
 TEST(Blobby, one_ellipsoid_is_one_of_half_the_size) {
-  Scene s = scene_of("Blobby 1 [1001 0] [2 0 0 0 0 2 0 0 0 0 2 0 5 0 0 1] [\"\"]");
+  Scene s = scene_of("ShadingRate 1e-4 Blobby 1 [1001 0] [2 0 0 0 0 2 0 0 0 0 2 0 5 0 0 1] [\"\"]");
   ASSERT_FALSE(s.primitives.empty());
   double volume = visit(s, [](Vec3 P, Vec3 N) {
     Vec3 from_centre = P - Vec3(5, 0, 0);
@@ -71,6 +71,15 @@ TEST(Blobby, one_ellipsoid_is_one_of_half_the_size) {
     EXPECT_NEAR(glm::dot(N, from_centre), 1, 1e-3f);
   });
   EXPECT_NEAR(volume, 4 * M_PI / 3, 0.05);
+}
+
+TEST(Blobby, pieces_are_as_fine_as_the_picture_needs) {
+  auto pieces = [](const std::string& before) {
+    return scene_of(before + " Blobby 1 [1001 0] [2 0 0 0 0 2 0 0 0 0 2 0 0 0 5 1] [\"\"]").primitives.size();
+  };
+  size_t fine = pieces("ShadingRate 1e-4"), coarse = pieces("ShadingRate 1e4");
+  EXPECT_NEAR(static_cast<double>(fine) / static_cast<double>(coarse), 4, 0.5); // 24 and 12 across: squared
+  EXPECT_EQ(pieces("ShadingRate 1e4 Scale 1e4 1e4 1"), fine);                   // larger in the picture
 }
 
 TEST(Blobby, one_segment_is_a_capsule) {
@@ -173,7 +182,7 @@ TEST(Blobby, a_ground_keeps_the_surface_off) {
   });
   ASSERT_TRUE(made);
   Scene s;
-  add_blobby(*made, {}, std::make_shared<PrimitiveState>(), s.primitives);
+  add_blobby(*made, 0, {}, std::make_shared<PrimitiveState>(), s.primitives);
   ASSERT_FALSE(s.primitives.empty());
   int near = 0, free = 0;
   visit(s, [&](Vec3 P, Vec3) {
