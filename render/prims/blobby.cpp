@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -190,6 +191,75 @@ double BlobbyField::at(Vec3d p) const {
   NodeValues values(nodes_.size());
   evaluate(p, values.data());
   return values.data()[nodes_.size() - 1];
+}
+
+namespace {
+
+constexpr int kZero = -1; ///< in place of a node whose field is 0 all over a box
+
+bool apart(const Box& a, const Box& b) {
+  for (int c = 0; c < 3; ++c)
+    if (a.max[c] < b.min[c] || a.min[c] > b.max[c]) return true;
+  return false;
+}
+
+} // namespace
+
+BlobbyField BlobbyField::near(const Box& box) const {
+  BlobbyField out;
+  std::vector<int> kept;
+  for (const Node& n : nodes_) {
+    bool reaches = n.kind == Kind::kConstant || n.kind == Kind::kGround || !apart(n.box, box);
+    if (!n.operands.empty()) {
+      kept.push_back(out.near_operator(n, kept));
+    } else if (reaches) {
+      kept.push_back(static_cast<int>(out.nodes_.size()));
+      out.nodes_.push_back(n);
+    } else {
+      kept.push_back(kZero);
+    }
+  }
+  // The last node is the field.
+  if (!kept.empty() && kept.back() != static_cast<int>(out.nodes_.size()) - 1) {
+    Node last;
+    if (kept.back() != kZero) {
+      last.kind = Kind::kIdentity;
+      last.operands = {kept.back()};
+    }
+    out.nodes_.push_back(std::move(last));
+  }
+  return out;
+}
+
+/// An operator over the nodes that are left: which node is its value now, or kZero. `kept`: of the nodes
+/// before.
+int BlobbyField::near_operator(const Node& node, const std::vector<int>& kept) {
+  std::vector<int> operands;
+  for (int o : node.operands)
+    operands.push_back(kept[static_cast<size_t>(o)]);
+  const bool some_zero = std::find(operands.begin(), operands.end(), kZero) != operands.end();
+  switch (node.kind) {
+  case Kind::kAdd: std::erase(operands, kZero); break;
+  case Kind::kSubtract:
+    if (operands[1] == kZero) operands.pop_back();
+    break;
+  case Kind::kMax:
+  case Kind::kMin: break;
+  default: // a product or quotient with 0, or what becomes of 0 alone
+    if (some_zero) return kZero;
+  }
+  if (std::all_of(operands.begin(), operands.end(), [](int o) { return o == kZero; })) return kZero;
+  if (operands.size() == 1 && node.kind != Kind::kNegate) return operands[0];
+  for (int& o : operands)
+    if (o == kZero) {
+      o = static_cast<int>(nodes_.size());
+      nodes_.push_back({}); // a constant 0
+    }
+  Node out;
+  out.kind = node.kind;
+  out.operands = std::move(operands);
+  nodes_.push_back(std::move(out));
+  return static_cast<int>(nodes_.size()) - 1;
 }
 
 /// Divides the part of a node among its operands.

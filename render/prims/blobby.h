@@ -24,6 +24,9 @@ public:
                                         const FindGround& find_ground = {});
 
   double at(glm::dvec3 p) const;
+  /// A field that has the same values in `box`, without the leaves that do not reach it: cheaper where there
+  /// are many.
+  BlobbyField near(const Box& box) const;
   /// What part of a variable's value comes from each leaf: sums and products share it in proportion to their
   /// operands' fields, a maximum or minimum takes it from the operand that decides, a difference or quotient
   /// from its first. The parts add up to 1; constants have none.
@@ -64,6 +67,7 @@ private:
   };
   std::string add_leaf(int code, std::span<const float> floats, Node& node);
   static double leaf(const Node& node, glm::dvec3 p);
+  int near_operator(const Node& node, const std::vector<int>& kept);
   /// The fields of all nodes.
   void evaluate(glm::dvec3 p, double* value) const;
   static void pass_on(const Node& node, const double* value, double part, double* parts);

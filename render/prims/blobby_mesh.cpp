@@ -76,44 +76,64 @@ private:
            cell_ * Vec3d(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
   }
 
+  /// Calls f(part, place) for all places of the lattice, less `margin` at its far sides, block by block: only
+  /// a few leaves reach each block. `part` has the field of the block and of a cell around it.
+  template <class F> void for_each(size_t margin, F&& f) const {
+    constexpr size_t kBlock = 8;
+    Place from;
+    for (from[2] = 0; from[2] + margin < n_[2]; from[2] += kBlock)
+      for (from[1] = 0; from[1] + margin < n_[1]; from[1] += kBlock)
+        for (from[0] = 0; from[0] + margin < n_[0]; from[0] += kBlock) {
+          Place to;
+          for (size_t c = 0; c < 3; ++c)
+            to[c] = std::min(from[c] + kBlock, n_[c] - margin);
+          Box box;
+          box.add(Vec3(position(from) - Vec3d(1.5 * cell_)));
+          box.add(Vec3(position(to) + Vec3d(1.5 * cell_)));
+          BlobbyField part = field_.near(box);
+          Place p;
+          for (p[2] = from[2]; p[2] < to[2]; ++p[2])
+            for (p[1] = from[1]; p[1] < to[1]; ++p[1])
+              for (p[0] = from[0]; p[0] < to[0]; ++p[0])
+                f(part, p);
+        }
+  }
+
   void sample() {
     samples_.resize(n_[0] * n_[1] * n_[2]);
-    for (size_t k = 0, at = 0; k < n_[2]; ++k)
-      for (size_t j = 0; j < n_[1]; ++j)
-        for (size_t i = 0; i < n_[0]; ++i)
-          samples_[at++] = static_cast<float>(field_.at(position({i, j, k})) - BlobbyField::kThreshold);
+    for_each(0, [&](const BlobbyField& part, const Place& p) {
+      samples_[index(p)] = static_cast<float>(part.at(position(p)) - BlobbyField::kThreshold);
+    });
   }
 
   void place_vertices() {
     vertex_of_.assign(samples_.size(), -1);
-    for (size_t k = 0; k + 1 < n_[2]; ++k)
-      for (size_t j = 0; j + 1 < n_[1]; ++j)
-        for (size_t i = 0; i + 1 < n_[0]; ++i) {
-          Vec3d sum(0.0);
-          int crossings = 0;
-          for (int axis = 0; axis < 3; ++axis)
-            for (size_t side = 0; side < 4; ++side) {
-              Place a{i, j, k};
-              a[static_cast<size_t>((axis + 1) % 3)] += side & 1;
-              a[static_cast<size_t>((axis + 2) % 3)] += side >> 1;
-              Place b = a;
-              ++b[static_cast<size_t>(axis)];
-              float fa = samples_[index(a)], fb = samples_[index(b)];
-              if ((fa > 0) == (fb > 0)) continue;
-              sum += glm::mix(position(a), position(b), static_cast<double>(fa / (fa - fb)));
-              ++crossings;
-            }
-          if (crossings == 0) continue;
-          vertex_of_[index({i, j, k})] = static_cast<int>(vertices_.size());
-          vertices_.push_back(vertex(sum / static_cast<double>(crossings)));
+    for_each(1, [&](const BlobbyField& part, const Place& p) {
+      Vec3d sum(0.0);
+      int crossings = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        for (size_t side = 0; side < 4; ++side) {
+          Place a = p;
+          a[static_cast<size_t>((axis + 1) % 3)] += side & 1;
+          a[static_cast<size_t>((axis + 2) % 3)] += side >> 1;
+          Place b = a;
+          ++b[static_cast<size_t>(axis)];
+          float fa = samples_[index(a)], fb = samples_[index(b)];
+          if ((fa > 0) == (fb > 0)) continue;
+          sum += glm::mix(position(a), position(b), static_cast<double>(fa / (fa - fb)));
+          ++crossings;
         }
+      if (crossings == 0) return;
+      vertex_of_[index(p)] = static_cast<int>(vertices_.size());
+      vertices_.push_back(vertex(part, sum / static_cast<double>(crossings)));
+    });
   }
 
   /// A point of the surface on a line through `start`, at most a cell away from it, where the field is too
   /// steep for Newton's steps; `otherwise` if the line stays on one side.
-  Vec3d bisected(Vec3d start, Vec3d otherwise) const {
-    Vec3d direction = field_.outwards(start, 1e-3 * cell_);
-    auto inside = [&](double t) { return field_.at(start + direction * t) > BlobbyField::kThreshold; };
+  Vec3d bisected(const BlobbyField& field, Vec3d start, Vec3d otherwise) const {
+    Vec3d direction = field.outwards(start, 1e-3 * cell_);
+    auto inside = [&](double t) { return field.at(start + direction * t) > BlobbyField::kThreshold; };
     bool here = inside(0);
     double low = 0, high = here ? cell_ : -cell_;
     if (inside(high) == here) return otherwise;
@@ -125,19 +145,19 @@ private:
   }
 
   /// Moves a point onto the surface, by at most a cell.
-  Vertex vertex(Vec3d start) const {
+  Vertex vertex(const BlobbyField& field, Vec3d start) const {
     double step = 1e-3 * cell_;
     Vec3d p = start;
     for (int i = 0; i < 4; ++i) {
-      Vec3d direction = field_.outwards(p, step);
-      double slope = (field_.at(p + direction * step) - field_.at(p - direction * step)) / (2 * step);
+      Vec3d direction = field.outwards(p, step);
+      double slope = (field.at(p + direction * step) - field.at(p - direction * step)) / (2 * step);
       if (!(slope < 0)) break;
-      Vec3d next = p + direction * ((BlobbyField::kThreshold - field_.at(p)) / slope);
+      Vec3d next = p + direction * ((BlobbyField::kThreshold - field.at(p)) / slope);
       if (!(glm::distance(next, start) < cell_)) break;
       p = next;
     }
-    if (std::abs(field_.at(p) - BlobbyField::kThreshold) > kOnSurface) p = bisected(start, p);
-    Vertex out{Vec3(p), Vec3(field_.outwards(p, step)), {}};
+    if (std::abs(field.at(p) - BlobbyField::kThreshold) > kOnSurface) p = bisected(field, start, p);
+    Vertex out{Vec3(p), Vec3(field.outwards(p, step)), {}};
     if (vars_.empty()) return out;
     out.shares.resize(field_.leaves());
     field_.shares(p, out.shares);

@@ -47,6 +47,47 @@ TEST(Blobby, leaves_and_operators) {
   EXPECT_NEAR(value({5, 0, 1, 0, 2, 3, 2}), a - b + c, 1e-12); // results count as operands
 }
 
+TEST(Blobby, a_part_of_the_field_has_the_same_values) {
+  // Six spheres in a row, and operators of all kinds over them.
+  std::vector<int> code;
+  std::vector<float> numbers;
+  for (int i = 0; i < 6; ++i) {
+    code.insert(code.end(), {1001, static_cast<int>(numbers.size())});
+    numbers.insert(numbers.end(),
+                   {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.8f * static_cast<float>(i), 0, 0, 1});
+  }
+  code.insert(code.end(), {1000, static_cast<int>(numbers.size())});
+  numbers.push_back(0.25f);
+  const std::vector<std::vector<int>> kOperations = {{0, 3, 0, 2, 4},
+                                                     {1, 2, 0, 1},
+                                                     {2, 3, 0, 3, 5},
+                                                     {3, 2, 0, 5},
+                                                     {4, 0, 1},
+                                                     {4, 1, 6},
+                                                     {5, 0, 5},
+                                                     {5, 5, 0},
+                                                     {6, 0},
+                                                     {7, 5},
+                                                     {0, 6, 0, 1, 2, 3, 4, 5},
+                                                     {0, 2, 4, 5, 5, 7, 0},
+                                                     {2, 2, 0, 6, 4, 3, 7}};
+  for (const auto& operation : kOperations) {
+    std::vector<int> all = code;
+    all.insert(all.end(), operation.begin(), operation.end());
+    BlobbyField whole = field(all, numbers);
+    for (float x = -1.5f; x < 6; x += 0.5f) {
+      Box box;
+      box.add(Vec3(x, -0.2f, -0.2f));
+      box.add(Vec3(x + 0.5f, 0.2f, 0.2f));
+      BlobbyField part = whole.near(box);
+      for (double t : {0.0, 0.1, 0.35, 0.5}) {
+        glm::dvec3 p(static_cast<double>(x) + t, 0.1, -0.2);
+        EXPECT_EQ(part.at(p), whole.at(p)) << operation[0] << " at " << p.x;
+      }
+    }
+  }
+}
+
 /// Calls `f` with position and unit normal at corners of all pieces; returns the volume inside.
 double visit(const Scene& s, const std::function<void(Vec3 P, Vec3 N)>& f) {
   double volume = 0;
