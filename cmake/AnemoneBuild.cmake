@@ -14,6 +14,7 @@ endif()
 set(CMAKE_CXX_FLAGS_RELASSERT "-O2 -g1")
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1")
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(ANEMONE_PLUGIN_FOLDER "${PROJECT_BINARY_DIR}/dso") # slvm::standard_plugin_folder()
 
 find_program(ANEMONE_CCACHE ccache)
 if(ANEMONE_CCACHE)
@@ -75,6 +76,17 @@ function(sl_module name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE anemone_flags ${arg_LIBS})
   install(TARGETS ${name} LIBRARY DESTINATION lib/anemone)
+endfunction()
+
+# sl_standard_plugin(NAME sources... LIBS libs...): functions for shaders in NAME.so, in the folder that programs know;
+# the target is dso_NAME.
+function(sl_standard_plugin name)
+  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  slplugin(dso_${name} ${arg_UNPARSED_ARGUMENTS} LIBS anemone_flags ${arg_LIBS})
+  set_target_properties(dso_${name} PROPERTIES OUTPUT_NAME ${name} LIBRARY_OUTPUT_DIRECTORY ${ANEMONE_PLUGIN_FOLDER})
+  target_include_directories(dso_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  install(TARGETS dso_${name} LIBRARY DESTINATION lib/anemone/dso)
+  add_dependencies(tools dso_${name})
 endfunction()
 
 # sl_unit_test(NAME sources... LIBS libs...): a GoogleTest binary whose cases CTest lists one by one.

@@ -53,6 +53,7 @@ RixInterface* PluginContext::GetRixInterface(RixInterfaceId id) const {
   case k_RixStats: return &host_.statistics();
   case k_RixThreadUtils: return &host_.thread_utils();
   case k_RixGlobalTokenData: return &host_.tokens();
+  case k_RixGrid: grid_.call = call; return call ? &grid_ : nullptr;
   default: return nullptr;
   }
 }
@@ -60,6 +61,14 @@ RixInterface* PluginContext::GetRixInterface(RixInterfaceId id) const {
 const RslRunFlag* PluginContext::GetRunFlags(unsigned int* length) const {
   *length = static_cast<unsigned int>(flags.size());
   return flags.data();
+}
+
+bool PluginGrid::Size(int* columns, int* rows) const {
+  const Grid& grid = *call->run.state.grid;
+  const bool neighbours = grid.lattice == Lattice::kRows;
+  *columns = neighbours ? grid.nu() : 0;
+  *rows = neighbours ? grid.nv() : 0;
+  return neighbours;
 }
 
 // In a call a message has its line.

@@ -50,6 +50,13 @@ struct HostedFunction {
   std::atomic<bool> ready = false;               ///< its init has been called in this frame
 };
 
+/// The grid of a call.
+class PluginGrid : public RixGrid {
+public:
+  bool Size(int* columns, int* rows) const override;
+  const GridCall* call = nullptr;
+};
+
 /// What functions see of the program: of a call, or (`call` null) of init and cleanup.
 class PluginContext : public RslContext {
 public:
@@ -71,6 +78,7 @@ private:
   PluginHost& host_;
   PluginThread* thread_;
   mutable PluginMessages messages_;
+  mutable PluginGrid grid_;
 };
 
 class PluginHost {

@@ -97,15 +97,29 @@ std::vector<std::string> list_libraries(std::span<const std::string> folders) {
   return files;
 }
 
+std::string standard_plugin_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) return "";
+  for (const char* place : {"../lib/anemone/dso", "../dso"})
+    if (fs::is_directory(program / place, error))
+      return fs::weakly_canonical(program / place, error).string();
+  return "";
+}
+
 std::vector<std::string> plugin_folders(std::string_view text) {
   std::vector<std::string> folders = split_path_list(text);
   if (const char* more = std::getenv(kPluginFoldersVariable))
     for (std::string& folder : split_path_list(more))
       folders.push_back(std::move(folder));
+  if (std::string standard = standard_plugin_folder(); !standard.empty())
+    folders.push_back(std::move(standard));
   return folders;
 }
 
-std::string plugin_folders_advice(std::span<const std::string> folders) {
+std::string plugin_folders_advice(std::span<const std::string> all) {
+  std::vector<std::string> folders(all.begin(), all.end());
+  std::erase(folders, standard_plugin_folder());
   if (folders.empty())
     return fmt::format(
         "plug-ins are native code, and only those are used that lie in folders given with {} or in {}",

@@ -45,9 +45,13 @@ std::vector<std::string> list_libraries(std::span<const std::string> folders);
 /// The environment variable that names folders of plug-ins, and the switch of all programs that does.
 inline constexpr const char* kPluginFoldersVariable = "ANEMONE_DSO_PATH";
 inline constexpr const char* kPluginFoldersSwitch = "--dso";
-/// The folders of the switch's text, then those of the environment.
+/// The folder of the plug-ins that come with Anemone, which programs trust as they trust themselves: beside
+/// the program, as built or as installed. "" when there is none.
+std::string standard_plugin_folder();
+/// The folders of the switch's text, then those of the environment, then the standard one.
 std::vector<std::string> plugin_folders(std::string_view text);
-/// What to do about a plug-in that is not in the folders: says that none were given, or which were searched.
+/// What to do about a plug-in that is not in the folders: says that the user gave none, or which were
+/// searched.
 std::string plugin_folders_advice(std::span<const std::string> folders);
 
 } // namespace slvm

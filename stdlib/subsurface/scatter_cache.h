@@ -100,6 +100,8 @@ public:
   /// [power/length^2].
   Color scatter(uint32_t index, Vec3 P, Vec3 N, float D, Color tint) const;
 
+  /// Samples that were handed out and have no light yet.
+  size_t in_flight() const { return in_flight_.size(); }
   uint32_t grid_points() const { return static_cast<uint32_t>(ends_.size()); }
 
 private:

@@ -14,7 +14,8 @@ enum RixInterfaceId {
   k_RixThreadUtils,     ///< RixThreadUtils
   k_RixGlobalTokenData, ///< RixTokenStorage
   k_RixRenderState,     ///< not served
-  k_RixSamplingPattern  ///< not served
+  k_RixSamplingPattern, ///< not served
+  k_RixGrid             ///< RixGrid, during a call; other renderers do not have it
 };
 #define k_RixFrameData k_RixGlobalData
 
@@ -87,4 +88,13 @@ public:
   virtual void AddMemoryStat(size_t* bytes, const char* name, const char* description) = 0;
   typedef void (*Reporter)(RixXmlFile* file);
   virtual void AddReporter(Reporter reporter) = 0;
+};
+
+/// How the points of the grid lie to each other, whose run flags and values RslContext and RslArg::GetData
+/// give.
+class RixGrid : public RixInterface {
+public:
+  /// The numbers of points along u and along v: point (i, j) has the number j * columns + i. False, and both
+  /// 0: the points are hits of rays, which have no neighbours.
+  virtual bool Size(int* columns, int* rows) const = 0;
 };

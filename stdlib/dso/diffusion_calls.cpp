@@ -1,0 +1,178 @@
+// diffusion(): the light that a lit cloud gives a point by the dipoles of all its samples, far ones in groups
+// (Jensen and Buhler 2002; the course's 4.4).
+#include "stdlib/dso/calls.h"
+#include "stdlib/dso/plugin_data.h"
+#include "stdlib/subsurface/diffusion_tree.h"
+
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace subsurface_plugin {
+namespace {
+
+using namespace subsurface;
+
+/// A lit cloud, ready for lookups.
+class Cloud {
+public:
+  explicit Cloud(DiffusionTree tree) : tree_(std::move(tree)) {}
+  const DiffusionTree& tree() const { return tree_; }
+
+  /// By the colours of the points.
+  const DiffusionMaterial& material(Color free_path, float eta) {
+    std::lock_guard lock(mutex_);
+    auto& made = materials_[{free_path.x, free_path.y, free_path.z, eta}];
+    if (!made) made = std::make_unique<DiffusionMaterial>(tree_, free_path, static_cast<double>(eta));
+    return *made;
+  }
+
+private:
+  DiffusionTree tree_;
+  std::mutex mutex_;
+  std::map<std::array<float, 4>, std::unique_ptr<DiffusionMaterial>> materials_;
+};
+
+/// Those of a frame, each read once.
+struct FrameClouds {
+  static constexpr const char* kName = "anemone.subsurface.clouds";
+  void end(RixContext&) {}
+
+  slvm::Result<std::shared_ptr<Cloud>> get(const std::string& file) {
+    std::lock_guard lock(mutex);
+    if (auto found = clouds.find(file); found != clouds.end()) return found->second;
+    return clouds.emplace(file, read(file)).first->second;
+  }
+
+  static slvm::Result<std::shared_ptr<Cloud>> read(const std::string& file) {
+    auto points = read_point_cloud(file);
+    if (!points) return slvm::Error{points.error()};
+    auto tree = DiffusionTree::build(*points);
+    if (!tree) return slvm::Error{fmt::format("{}: {}", file, tree.error())};
+    return std::make_shared<Cloud>(std::move(*tree));
+  }
+
+  std::mutex mutex;
+  std::map<std::string, slvm::Result<std::shared_ptr<Cloud>>> clouds;
+};
+
+/// Null, with a message: it cannot be used.
+std::shared_ptr<Cloud> cloud_of(const RslContext& context, const char* file) {
+  auto cloud = of_frame<FrameClouds>(context).get(file);
+  if (cloud) return *cloud;
+  complain(context, cloud.error());
+  return nullptr;
+}
+
+/// Calls `lookup` for all points at once and stores what it finds. Lookups have Fdt in them, the light that
+/// gets in; shaders put Fresnel's terms in by themselves.
+template <class Lookup> int look_up(const RslArg* result, const RslArg* P, float eta, Lookup&& lookup) {
+  RslColorIter out(result);
+  RslPointIter at(P);
+  const unsigned int count = result->NumValues();
+  std::vector<Vec3> x(count);
+  for (unsigned int i = 0; i < count; ++i, ++at)
+    x[i] = vec3(*at);
+  std::vector<Color> light(count);
+  lookup(x, light);
+  const auto inside = static_cast<float>(1 / (1 - diffuse_fresnel(static_cast<double>(eta))));
+  for (unsigned int i = 0; i < count; ++i, ++out)
+    store(light[i] * inside, *out);
+  return 0;
+}
+
+/// A number that has to be above 0; false, with a message, if it is not.
+bool positive(const RslContext& context, const char* name, float value) {
+  if (value > 0) return true;
+  complain(context, fmt::format("diffusion(): {} is {}, it must be above 0", name, value));
+  return false;
+}
+bool positive(const RslContext& context, const char* name, Color value) {
+  return positive(context, name, value.x) && positive(context, name, value.y) &&
+         positive(context, name, value.z);
+}
+
+int nothing(const RslArg* result) {
+  RslColorIter out(result);
+  for (unsigned int i = 0; i < result->NumValues(); ++i, ++out)
+    store(Color{}, *out);
+  return 0;
+}
+
+} // namespace
+
+// result, P, cloud, material, mm, epsilon
+int diffusion_of_material(RslContext* context, int, const RslArg* argv[]) {
+  RslStringIter file(argv[2]), name(argv[3]);
+  RslFloatIter mm(argv[4]), epsilon(argv[5]);
+  auto material = find_material(*name);
+  if (!material) complain(*context, material.error());
+  if (!material || !positive(*context, "mm", *mm)) return nothing(argv[0]);
+  const auto cloud = cloud_of(*context, *file);
+  if (!cloud) return nothing(argv[0]);
+  const DiffusionMaterial dipoles(dipole_of(medium_of(*material, 0, static_cast<double>(*mm))));
+  return look_up(argv[0], argv[1], static_cast<float>(material->eta), [&](auto& x, auto& light) {
+    cloud->tree().exitance(dipoles, x, {*epsilon, {}}, light);
+  });
+}
+
+// result, P, cloud, albedo, freepath, eta, epsilon
+int diffusion_of_appearance(RslContext* context, int, const RslArg* argv[]) {
+  RslStringIter file(argv[2]);
+  RslColorIter albedo(argv[3]), free_path(argv[4]);
+  RslFloatIter eta(argv[5]), epsilon(argv[6]);
+  const Color path = vec3(*free_path);
+  if (!positive(*context, "freepath", path) || !positive(*context, "eta", *eta)) return nothing(argv[0]);
+  const auto cloud = cloud_of(*context, *file);
+  if (!cloud) return nothing(argv[0]);
+  const DiffusionMaterial dipoles(dipole_of(medium_of(vec3(*albedo), path, 0, static_cast<double>(*eta))));
+  return look_up(argv[0], argv[1], *eta, [&](auto& x, auto& light) {
+    cloud->tree().exitance(dipoles, x, {*epsilon, {}}, light);
+  });
+}
+
+// result, P, cloud, freepath, eta, epsilon
+int diffusion_of_points(RslContext* context, int, const RslArg* argv[]) {
+  RslStringIter file(argv[2]);
+  RslColorIter free_path(argv[3]);
+  RslFloatIter eta(argv[4]), epsilon(argv[5]);
+  const Color path = vec3(*free_path);
+  if (!positive(*context, "freepath", path) || !positive(*context, "eta", *eta)) return nothing(argv[0]);
+  const auto cloud = cloud_of(*context, *file);
+  if (!cloud) return nothing(argv[0]);
+  const DiffusionMaterial& dipoles = cloud->material(path, *eta);
+  return look_up(argv[0], argv[1], *eta, [&](auto& x, auto& light) {
+    cloud->tree().exitance(dipoles, x, {*epsilon, {}}, light);
+  });
+}
+
+// result, P, clouds, radii, albedo, freepath, eta, epsilon
+int diffusion_of_levels(RslContext* context, int, const RslArg* argv[]) {
+  constexpr float kFade = 0.2f; // of each radius: where one level passes into the next
+  RslStringArrayIter files(argv[2]);
+  RslFloatArrayIter radii(argv[3]);
+  RslColorIter albedo(argv[4]), free_path(argv[5]);
+  RslFloatIter eta(argv[6]), epsilon(argv[7]);
+  const Color path = vec3(*free_path);
+  if (!positive(*context, "freepath", path) || !positive(*context, "eta", *eta)) return nothing(argv[0]);
+  const DiffusionMaterial dipoles(dipole_of(medium_of(vec3(*albedo), path, 0, static_cast<double>(*eta))));
+  std::vector<std::shared_ptr<Cloud>> clouds;
+  std::vector<CloudLevels::Level> levels;
+  for (int i = 0; i < files.GetLength(); ++i) {
+    const bool last = i + 1 == files.GetLength();
+    if (!last && (i >= radii.GetLength() || !(radii[i] > (i ? radii[i - 1] : 0)))) {
+      complain(*context, fmt::format("diffusion(): {} clouds need {} radii that rise, from fine to coarse",
+                                     files.GetLength(), files.GetLength() - 1));
+      return nothing(argv[0]);
+    }
+    clouds.push_back(cloud_of(*context, files[i]));
+    if (!clouds.back()) return nothing(argv[0]);
+    levels.push_back({&clouds.back()->tree(), &dipoles, last ? 0 : radii[i]});
+  }
+  const CloudLevels together(std::move(levels));
+  return look_up(argv[0], argv[1], *eta,
+                 [&](auto& x, auto& light) { together.exitance(x, *epsilon, kFade, light); });
+}
+
+} // namespace subsurface_plugin

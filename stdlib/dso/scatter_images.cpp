@@ -1,0 +1,124 @@
+#include "stdlib/dso/scatter_images.h"
+
+#include "stdlib/subsurface/scatter_map.h"
+
+#include <tiffio.h>
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+
+namespace subsurface_plugin {
+namespace {
+
+constexpr size_t kMostPixels = size_t{1} << 28;
+
+/// libtiff's message goes to the text given with the options, never to the terminal.
+int keep_message(TIFF*, void* text, const char*, const char* format, va_list arguments) {
+  char line[512];
+  std::vsnprintf(line, sizeof line, format, arguments);
+  auto& message = *static_cast<std::string*>(text);
+  if (message.empty()) message = line;
+  return 1;
+}
+int no_message(TIFF*, void*, const char*, const char*, va_list) {
+  return 1;
+}
+
+struct Close {
+  void operator()(TIFF* t) const { TIFFClose(t); }
+};
+
+struct Image {
+  size_t width = 0, height = 0, channels = 0;
+  std::vector<float> pixels; ///< row by row, channels side by side
+
+  /// The first `wanted` channels.
+  std::vector<float> first(size_t wanted) const {
+    std::vector<float> out;
+    out.reserve(width * height * wanted);
+    for (size_t i = 0; i < width * height; ++i)
+      out.insert(out.end(), &pixels[i * channels], &pixels[i * channels] + wanted);
+    return out;
+  }
+};
+
+/// Rows of tiles or strips, all channels side by side. False: the file is damaged.
+bool read_rows(TIFF* t, Image& image) {
+  image.pixels.resize(image.width * image.height * image.channels);
+  if (!TIFFIsTiled(t)) {
+    for (size_t y = 0; y < image.height; ++y)
+      if (TIFFReadScanline(t, &image.pixels[y * image.width * image.channels], static_cast<uint32_t>(y)) < 0)
+        return false;
+    return true;
+  }
+  uint32_t tile_width = 0, tile_height = 0;
+  TIFFGetField(t, TIFFTAG_TILEWIDTH, &tile_width);
+  TIFFGetField(t, TIFFTAG_TILELENGTH, &tile_height);
+  std::vector<float> tile(static_cast<size_t>(TIFFTileSize(t)) / sizeof(float));
+  if (tile_width == 0 || tile.size() < size_t{tile_width} * tile_height * image.channels) return false;
+  for (size_t y0 = 0; y0 < image.height; y0 += tile_height)
+    for (size_t x0 = 0; x0 < image.width; x0 += tile_width) {
+      if (TIFFReadTile(t, tile.data(), static_cast<uint32_t>(x0), static_cast<uint32_t>(y0), 0, 0) < 0)
+        return false;
+      const size_t columns = std::min<size_t>(tile_width, image.width - x0);
+      for (size_t y = y0; y < std::min<size_t>(y0 + tile_height, image.height); ++y)
+        std::copy_n(&tile[(y - y0) * tile_width * image.channels], columns * image.channels,
+                    &image.pixels[(y * image.width + x0) * image.channels]);
+    }
+  return true;
+}
+
+slvm::Result<Image> read_image(const std::string& path, size_t channels) {
+  std::string message;
+  auto error = [&](const std::string& text) { return slvm::Error{fmt::format("{}: {}", path, text)}; };
+  std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                       TIFFOpenOptionsFree);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, &message);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), no_message, nullptr);
+  std::unique_ptr<TIFF, Close> file(TIFFOpenExt(path.c_str(), "r", options.get()));
+  if (!file) return error(message.empty() ? "it cannot be read" : message);
+  TIFF* t = file.get();
+  uint32_t width = 0, height = 0;
+  uint16_t samples = 1, bits = 1, format = SAMPLEFORMAT_UINT, planes = PLANARCONFIG_CONTIG;
+  TIFFGetField(t, TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(t, TIFFTAG_IMAGELENGTH, &height);
+  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLESPERPIXEL, &samples);
+  TIFFGetFieldDefaulted(t, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLEFORMAT, &format);
+  TIFFGetFieldDefaulted(t, TIFFTAG_PLANARCONFIG, &planes);
+  if (bits != 32 || format != SAMPLEFORMAT_IEEEFP)
+    return error("a picture of a scatter map has 32-bit floats (Quantize \"rgba\" 0 0 0 0)");
+  if (samples < channels || planes != PLANARCONFIG_CONTIG)
+    return error(fmt::format("it has {} channels{}, {} are wanted, side by side", samples,
+                             planes != PLANARCONFIG_CONTIG ? " in planes" : "", channels));
+  Image image{width, height, samples, {}};
+  if (image.width * image.height == 0 || image.width * image.height > kMostPixels / samples)
+    return error(fmt::format("{} x {} pixels are too many or too few", width, height));
+  if (!read_rows(t, image)) return error(message.empty() ? "it is damaged" : message);
+  return image;
+}
+
+} // namespace
+
+slvm::Result<subsurface::PointCloud> read_scatter_map(const std::string& name) {
+  if (name.ends_with(".ply")) return subsurface::read_point_cloud(name);
+  const size_t dot = name.find('.', name.rfind('/') == name.npos ? 0 : name.rfind('/'));
+  const std::string stem = name.substr(0, dot), ending = dot == name.npos ? "" : name.substr(dot);
+  Image images[3];
+  constexpr size_t kChannels[] = {3, 3, 1};
+  for (size_t i = 0; i < 3; ++i) {
+    const std::string path = stem + "PNA"[i] + ending;
+    auto image = read_image(path, kChannels[i]);
+    if (!image) return slvm::Error{image.error()};
+    images[i] = std::move(*image);
+    if (images[i].width != images[0].width || images[i].height != images[0].height)
+      return slvm::Error{
+          fmt::format("{} has {} x {} pixels, {}P{} {} x {}: they must come from one rendering", path,
+                      images[i].width, images[i].height, stem, ending, images[0].width, images[0].height)};
+  }
+  return subsurface::cloud_of_scatter_images(images[0].width, images[0].height, images[0].first(3),
+                                             images[1].first(3), images[2].first(1));
+}
+
+} // namespace subsurface_plugin
