@@ -1,0 +1,201 @@
+/* subsurface.h: both terms of light below the surface, in the shading language: found by rays, or by the shadow maps of lights.
+ *
+ * Coefficients as in scattering.h, positions in "current" space. Results are without the Fresnel term of the way out, as the two
+ * terms share it: multiply by fresneltransmittance().
+ *
+ * After "Implementing a Skin BSSRDF" (Hery, RenderMan, Theory and Practice, SIGGRAPH 2003 course 9, chapter 4). Different from its
+ * pseudo code, which lacks a factor 1/2 of diffusion, 1 / (4 PI) of the phase function, and a sign of the cosine; which weighs single
+ * scattering by 1 / sigma_tc where sampling along the ray leaves 1 / sigma_t; and which takes all light as it is at P.
+ */
+#ifndef ANEMONE_SUBSURFACE_H
+#define ANEMONE_SUBSURFACE_H
+
+#include "scattering.h"
+
+/* Places in the plane with density exp(-r) / (2 PI) a unit of area, made by mktables: a table of x and one of y. */
+#define SUBSURFACE_PLACES 128
+
+/* What a sample of single scattering adds, for a light of radiance 1 in a solid angle of 1: light that enters where the normal is Ni, goes
+ * in for a straight distance of before, is turned and goes along To (from the eye, refracted) for a distance of after; over the density
+ * of such samples, which is the mean of those of the three colours.
+ */
+color turnedonce(vector To; vector toLight; normal Ni; float before; float after; color sigma_a; color sigma_s; float g; float eta) {
+  float cosine = toLight . Ni;
+  color sum = 0;
+  if (cosine > 0) {
+    vector Ti = normalize(refract(-toLight, vector Ni, 1 / eta));
+    /* Inside, the light fills less of all directions. */
+    float gain = fresneltransmittance(cosine, eta) * cosine / (eta * eta * cosineinside(cosine, eta)) *
+                 henyeygreenstein(-(Ti . To), g);
+    color sigma_t = sigma_a + sigma_s;
+    color density = sigma_t * expcolor(-after * sigma_t);
+    float mean = (comp(density, 0) + comp(density, 1) + comp(density, 2)) / 3;
+    sum = gain * sigma_s * expcolor(-(refracteddistance(before, cosine, eta) + after) * sigma_t) / mean;
+  }
+  return sum;
+}
+
+/* How deep sample i of so many lies along the refracted ray; turn: which colour's density sample 0 has. */
+float turningdepth(float i; float samples; float turn; color sigma_t) {
+  return -log(1 - (i + random()) / samples) / comp(sigma_t, mod(i + turn, 3));
+}
+
+/* Single scattering of one light, for a loop over lights: `sum += Cl * singlescattering(...)` in illuminance(P, N, PI). To find where
+ * its light enters, rays go from places along the refracted view ray towards it, and meet the objects of `subset` ("": all). The light
+ * must not be shadowed by the object itself: leave it out of shadow maps, or out of "transmission" rays. Nn faces the eye, Nn and In are
+ * of unit length.
+ */
+color singlescattering(point P; normal Nn; vector In; vector L; color sigma_a; color sigma_s; float g; float eta;
+                       uniform float samples; uniform string subset) {
+  vector toLight = normalize(L), To = normalize(refract(In, vector Nn, 1 / eta));
+  float turn = floor(3 * random()), i;
+  color sum = 0;
+  for (i = 0; i < samples; i += 1) {
+    float after = turningdepth(i, samples, turn, sigma_a + sigma_s), before = 0;
+    normal Ni = 0;
+    color added = 0;
+    gather("", P + after * To, toLight, 0, 1, "primitive:N", Ni, "ray:length", before, "bias", 0, "subset", subset) {
+      added = turnedonce(To, toLight, normalize(Ni), before, after, sigma_a, sigma_s, g, eta);
+    }
+    sum += added;
+  }
+  return PI * sum / samples;
+}
+
+/* Light of all lights at a place of a surface: what diffuse() is at P. */
+color lightat(point Pi; normal Ni) {
+  color sum = 0;
+  illuminance(Pi, Ni, PI / 2)
+    sum += Cl * (normalize(L) . Ni);
+  return sum;
+}
+
+/* Diffusion of all lights: rays find places of the surface round P, where the light is that of their own, then the dipole brings it to P.
+ * The samples spread by the longest free path of the three colours, or colours would separate into grain. Places are found on both sides
+ * of the tangent plane, the one nearest to the outside first. `map`: "", or a texture that is the albedo at each place (times
+ * `albedo`), looked up at its primitive's s and t. At most SUBSURFACE_PLACES samples.
+ */
+color diffusionscattering(point P; normal Nn; color albedo; color freepath; float eta; uniform float samples; uniform string subset;
+                          uniform string map) {
+#include "diffusionplaces.h"
+  float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
+  vector up = abs(xcomp(Nn)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0);
+  vector base1 = normalize(Nn ^ up), base2 = base1 ^ Nn;
+  float turn = 2 * PI * random();
+  uniform float i;
+  color sum = 0;
+  for (i = 0; i < samples; i += 1) {
+    float x = scattdiffdist1[i], y = scattdiffdist2[i];
+    float r = sqrt(x * x + y * y), angle = atan(y, x) + turn;
+    vector aside = r * reach * (cos(angle) * base1 + sin(angle) * base2);
+    float probe = (r + 0.25) * reach;
+    point Pi = 0;
+    normal Ni = 0;
+    float si = 0, ti = 0;
+    color added = 0;
+    gather("", P + aside + probe * Nn, -Nn, 0, 1, "primitive:P", Pi, "primitive:N", Ni, "primitive:s", si, "primitive:t", ti, "bias", 0,
+           "maxdist", 2 * probe, "subset", subset) {
+      normal Nu = normalize(Ni);
+      color there = albedo;
+      if (map != "") there *= color texture(map, si, ti, si, ti, si, ti, si, ti, "samples", 1);
+      /* The piece of surface behind a piece of tangent plane is larger; how much larger is kept within bounds. */
+      float slant = max(abs(Nu . Nn), 0.1);
+      added = lightat(Pi, Nu) * dipoleof(distance(P, Pi), there, freepath, eta) * (2 * PI * reach * reach * exp(r) / slant);
+    }
+    sum += added;
+  }
+  return sum / samples;
+}
+
+/* The nearest place towards a light, by its shadow map: where light to p enters. False (0): the map shows nothing there. The light's camera
+ * may be of either projection; the map holds the translucent object only.
+ */
+float entrybymap(uniform string map; point p; output point Pi) {
+  uniform matrix toEye = 1, toScreen = 1;
+  textureinfo(map, "viewingmatrix", toEye);
+  textureinfo(map, "projectionmatrix", toScreen);
+  uniform matrix fromEye = 1 / toEye;
+  point seen = transform(toEye, p), onScreen = transform(toScreen, p);
+  float s = 0.5 * (1 + xcomp(onScreen)), t = 0.5 * (1 - ycomp(onScreen));
+  float depth = float texture(map, s, t, s, t, s, t, s, t, "samples", 1);
+  if (comp(toScreen, 3, 3) == 1) /* orthographic */
+    setzcomp(seen, depth);
+  else
+    seen *= depth / zcomp(seen);
+  Pi = transform(fromEye, seen);
+  return s >= 0 && s <= 1 && t >= 0 && t <= 1 && depth > 0 && depth < 1e29 ? 1 : 0;
+}
+
+/* A normal from a picture of normals in the camera space of a light, made with its shadow map. */
+normal normalbymap(uniform string map; uniform string normals; point p) {
+  uniform matrix toEye = 1, toScreen = 1;
+  textureinfo(map, "viewingmatrix", toEye);
+  textureinfo(map, "projectionmatrix", toScreen);
+  point onScreen = transform(toScreen, p);
+  float s = 0.5 * (1 + xcomp(onScreen)), t = 0.5 * (1 - ycomp(onScreen));
+  color c = color texture(normals, s, t, s, t, s, t, s, t, "samples", 1);
+  return normalize(ntransform(1 / toEye, normal (comp(c, 0), comp(c, 1), comp(c, 2))));
+}
+
+/* The part of light from Pi to p that things inside let through, by a map of them from the same light ("": nothing is inside). Where they lie
+ * between by `soft` or more nothing gets through.
+ */
+float pastblockers(uniform string inner; point p; float soft) {
+  float through = 1;
+  if (inner != "") {
+    uniform matrix toEye = 1;
+    textureinfo(inner, "viewingmatrix", toEye);
+    point at = 0;
+    if (entrybymap(inner, p, at) == 1)
+      through = 1 - smoothstep(0, soft, zcomp(transform(toEye, p)) - zcomp(transform(toEye, at)));
+  }
+  return through;
+}
+
+/* As singlescattering(), by the light's shadow map. normals: a picture of normals from the light, "": the light enters straight. inner, soft:
+ * as for pastblockers().
+ */
+color singlescatteringbymap(point P; normal Nn; vector In; vector L; color sigma_a; color sigma_s; float g; float eta;
+                            uniform float samples; uniform string map; uniform string normals; uniform string inner; float soft) {
+  vector toLight = normalize(L), To = normalize(refract(In, vector Nn, 1 / eta));
+  float turn = floor(3 * random()), i;
+  color sum = 0;
+  for (i = 0; i < samples; i += 1) {
+    float after = turningdepth(i, samples, turn, sigma_a + sigma_s);
+    point place = P + after * To, Pi = 0;
+    if (entrybymap(map, place, Pi) == 1) {
+      normal Ni = normal toLight;
+      if (normals != "") Ni = normalbymap(map, normals, place);
+      /* Behind its own entry by rounding only: the light does not go in. */
+      float before = max((Pi - place) . toLight, 0);
+      sum += pastblockers(inner, place, soft) * turnedonce(To, toLight, Ni, before, after, sigma_a, sigma_s, g, eta);
+    }
+  }
+  return PI * sum / samples;
+}
+
+/* Diffusion of one light by its shadow map, for a loop over lights: `sum += Cl * diffusionscatteringbymap(...)`. Samples lie in a plane
+ * across the light and go to the surface along it, so that the cosine of the light is in how they spread: the loop has none.
+ */
+color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; float eta; uniform float samples; uniform string map;
+                               uniform string inner; float soft) {
+  vector toLight = normalize(L);
+#include "diffusionplaces.h"
+  float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
+  vector up = abs(xcomp(toLight)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0);
+  vector base1 = normalize(toLight ^ up), base2 = base1 ^ toLight;
+  float turn = 2 * PI * random();
+  uniform float i;
+  color sum = 0;
+  for (i = 0; i < samples; i += 1) {
+    float x = scattdiffdist1[i], y = scattdiffdist2[i];
+    float r = sqrt(x * x + y * y), angle = atan(y, x) + turn;
+    point place = P + r * reach * (cos(angle) * base1 + sin(angle) * base2), Pi = 0;
+    if (entrybymap(map, place, Pi) == 1)
+      sum += pastblockers(inner, place, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta) *
+             (2 * PI * reach * reach * exp(r));
+  }
+  return sum / samples;
+}
+
+#endif
