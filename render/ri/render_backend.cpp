@@ -4,6 +4,7 @@
 #include "render/setup/compiling_loader.h"
 #include "render/setup/places.h"
 #include "render/state/interpreter.h"
+#include "slvm/support/shared_library.h"
 
 #include <fmt/format.h>
 
@@ -90,8 +91,10 @@ RendererSettings settings(AroundPlugIn around_plug_in, std::function<void()> flu
   RendererSettings s;
   s.around_plug_in = std::move(around_plug_in);
   s.procedural_folders = render::setup::procedural_folders("", "ANEMONE_PROCEDURALS");
+  s.plugin_folders = slvm::plugin_folders("");
   s.shader_loader = render::setup::make_compiling_loader(
-      "ri", [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); });
+      "ri", [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); },
+      s.plugin_folders);
   s.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
   s.flush_messages = std::move(flush);
   return s;

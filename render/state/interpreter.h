@@ -297,6 +297,7 @@ private:
   void run(const Procedural&, float area);
   void run_program(const Procedural&, float area);
   void run_plug_in(const Procedural&, float area);
+  void run_fragment(const Procedural&);
   Procedural* keep_procedural(const RequestCall&, std::span<const float> bound, slvm::SourceRange where);
   slvm::Result<std::unique_ptr<Program>> start_program(const Procedural&);
   void report(const Procedural&, std::string_view text);
@@ -339,6 +340,7 @@ private:
   enum class ErrorHandling : uint8_t { kIgnore, kPrint, kAbort };
   ErrorHandling error_handler_ = ErrorHandling::kPrint;
   RiError error_kind_ = RiError::kNone;
+  RiTarget* reader_ = this;  ///< who gets the requests of texts
   std::string scene_folder_; ///< of the file given by the user
   std::string folder_;       ///< of the file being read
   /// Archives read so far, so that one read often is kept once. Encoded ones are not in it.

@@ -55,7 +55,7 @@ void Interpreter::parse_text(std::string name, std::string text, bool keep) {
   slvm::FileId file = sources_.add(std::move(name), keep ? std::move(text) : std::string());
   if (!problem.empty()) diagnostics_.error({file, 1, 1, 1}, problem);
   if (keep && problem.empty() && depth_ > 0) archive_files_[key] = file;
-  parse_rib(keep ? sources_.text(file) : text, file, *this, diagnostics_);
+  parse_rib(keep ? sources_.text(file) : text, file, *reader_, diagnostics_);
   folder_ = outer_folder;
 }
 
@@ -136,7 +136,7 @@ void Interpreter::read_archive_file(const std::string& name, slvm::SourceRange w
   auto known = found ? archive_files_.find(*found) : archive_files_.end();
   if (known != archive_files_.end()) {
     std::string outer_folder = std::exchange(folder_, folder_of(*found));
-    parse_rib(sources_.text(known->second), known->second, *this, diagnostics_);
+    parse_rib(sources_.text(known->second), known->second, *reader_, diagnostics_);
     folder_ = outer_folder;
   } else if (auto text = found ? render::read_file(*found) : std::nullopt) {
     read_text(*found, std::move(*text));

@@ -1,5 +1,6 @@
 // Procedurals: kept when they are met, carried out when the renderer comes to them.
 #include "render/rib/parser.h"
+#include "render/state/fragment.h"
 #include "render/state/interpreter.h"
 #include "render/state/search_path.h"
 
@@ -34,19 +35,22 @@ std::optional<std::string> find_program(const std::string& name, std::vector<std
 void Interpreter::procedural(const RequestCall& call) {
   const std::string& type = call.text(0);
   bool archive = type == "DelayedReadArchive", program = type == "RunProgram",
-       plug_in = type == "DynamicLoad";
-  if (!archive && !program && !plug_in) {
-    error_at(call.arguments[0].where, call,
-             fmt::format("unknown type \"{}\"; known are DelayedReadArchive, RunProgram, DynamicLoad", type));
+       plug_in = type == "DynamicLoad", fragment = type == "Fragment";
+  if (!archive && !program && !plug_in && !fragment) {
+    error_at(
+        call.arguments[0].where, call,
+        fmt::format("unknown type \"{}\"; known are DelayedReadArchive, RunProgram, DynamicLoad, Fragment",
+                    type));
     return;
   }
-  size_t wanted = archive ? 1 : 2;
+  size_t wanted = archive || fragment ? 1 : 2;
   if (call.texts(1).size() != wanted) {
     error_at(call.arguments[1].where, call,
              fmt::format("\"{}\" takes {}, found {}", type,
-                         archive   ? "the name of a file"
-                         : program ? "a program and the data for it"
-                                   : "a plug-in and its parameters",
+                         archive    ? "the name of a file"
+                         : fragment ? "a mesh as RIB, or the name of a file"
+                         : program  ? "a program and the data for it"
+                                    : "a plug-in and its parameters",
                          call.texts(1).size()));
     return;
   }
@@ -162,6 +166,8 @@ void Interpreter::run(const Procedural& p, float area) {
     read_archive_file(p.arguments[0], p.where, "Procedural");
   else if (p.type == "DynamicLoad")
     run_plug_in(p, area);
+  else if (p.type == "Fragment")
+    run_fragment(p);
   else
     run_program(p, area);
   if (file) --depth_;
@@ -198,6 +204,21 @@ void Interpreter::run_plug_in(const Procedural& p, float area) {
   else
     functions();
   if (!problem.empty()) report(p, problem);
+}
+
+void Interpreter::run_fragment(const Procedural& p) {
+  FragmentSource source = fragment_source(p.arguments[0]);
+  Fragmenter fragmenter(*this, diagnostics_, declarations_, source.mesh);
+  reader_ = &fragmenter;
+  const size_t errors = diagnostics_.error_count();
+  if (source.file.empty())
+    parse_text("<Fragment>", std::move(source.text), false);
+  else
+    read_archive_file(source.file, p.where, "Procedural");
+  reader_ = this;
+  if (diagnostics_.error_count() == errors && fragmenter.meshes() <= source.mesh)
+    report(p, fmt::format("mesh {} is wanted, but there are {} SubdivisionMesh requests", source.mesh,
+                          fragmenter.meshes()));
 }
 
 void Interpreter::run_program(const Procedural& p, float area) {
