@@ -255,7 +255,20 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
   if (behind(samples_[index], z) || z < settings_.near_plane || z > settings_.far_plane) return;
   if (removed(index, z)) return;
   add(index, colour_of(grid, grid.Ci, corners, weights), colour_of(grid, grid.Oi, corners, weights), z,
-      grid.matte, grid.aov.data() + corners[0] * aovs_);
+      grid.matte, variables_of(grid, corners, weights));
+}
+
+/// The variables of displays, as colour_of(). Valid until the next call.
+const float* SampleBuffer::variables_of(const ShadedGrid& grid, const size_t (&corners)[3],
+                                        const float (&weights)[3]) {
+  const float* values[3];
+  for (size_t c = 0; c < 3; ++c)
+    values[c] = grid.aov.data() + corners[c] * aovs_;
+  if (!grid.smooth) return values[0];
+  blended_aov_.resize(aovs_);
+  for (size_t k = 0; k < aovs_; ++k)
+    blended_aov_[k] = blend(values[0][k], values[1][k], values[2][k], weights);
+  return blended_aov_.data();
 }
 
 /// Also what is not to be seen, all of which bounds the solid. Nothing is known in front of the near plane.
@@ -268,7 +281,7 @@ void SampleBuffer::hit_solid(const ShadedGrid& grid, size_t index, const size_t 
       grid.hidden[micropolygon] == ShadedGrid::kFacesAway || z > settings_.far_plane || removed(index, z);
   solid_hits_.add({colour_of(grid, grid.Ci, corners, weights), colour_of(grid, grid.Oi, corners, weights), z,
                    static_cast<uint32_t>(index), grid.solid_primitive, grid.matte, unseen, grid.cut_near});
-  const float* aov = grid.aov.data() + corners[0] * aovs_;
+  const float* aov = variables_of(grid, corners, weights);
   solid_aov_.insert(solid_aov_.end(), aov, aov + aovs_);
 }
 

@@ -68,6 +68,7 @@ private:
   void draw_moving(const ShadedGrid& grid, size_t k);
   void hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
            float z);
+  const float* variables_of(const ShadedGrid& grid, const size_t (&corners)[3], const float (&weights)[3]);
   void hit_solid(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
                  float z);
   /// Whether a surface at this depth would not change the sample.
@@ -92,6 +93,7 @@ private:
   std::shared_ptr<const SolidTree> solid_; ///< whose grids are being drawn
   SolidHits solid_hits_;
   std::vector<float> solid_aov_;
+  std::vector<float> blended_aov_;
   size_t open_;
   bool midpoint_;
   mutable float farthest_ = kInfinity;

@@ -208,6 +208,10 @@ void Interpreter::run_plug_in(const Procedural& p, float area) {
 
 void Interpreter::run_fragment(const Procedural& p) {
   FragmentSource source = fragment_source(p.arguments[0]);
+  if (scene_.options.projection != ProjectionKind::kOrthographic)
+    warn_once(
+        "fragment camera", p.where, "rib",
+        "Procedural: Fragment: the camera is not orthographic: what shaders transform from \"NDC\" is wrong");
   Fragmenter fragmenter(*this, diagnostics_, declarations_, source.mesh);
   reader_ = &fragmenter;
   const size_t errors = diagnostics_.error_count();

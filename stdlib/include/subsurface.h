@@ -12,8 +12,24 @@
 
 #include "scattering.h"
 
-/* Places in the plane with density exp(-r) / (2 PI) a unit of area, made by mktables: a table of x and one of y. */
-#define SUBSURFACE_PLACES 128
+/* The radius below which this part of a plane's samples lies, of density exp(-r) / (2 PI) a unit of area: 1 - exp(-r) (1 + r) = xi, by
+ * Newton's steps. In the course a table of places serves (mktables makes such); radii that differ from point to point miss nothing of
+ * the steep middle of the dipole.
+ */
+float diffusionradius(float xi) {
+  float y = -log(1 - xi), r = y + sqrt(2 * y);
+  uniform float i;
+  for (i = 0; i < 5; i += 1)
+    r -= (r - log(1 + r) - y) * (1 + r) / max(r, 1e-6);
+  return max(r, 0);
+}
+
+/* Sample i of so many: an offset in the plane of two axes, its length is r. Neighbours in number lie a golden angle apart. */
+vector diffusionplace(uniform float i; uniform float samples; float turn; vector base1; vector base2; output float r) {
+  float angle = turn + i * 2.3999632;
+  r = diffusionradius((i + random()) / samples);
+  return r * (cos(angle) * base1 + sin(angle) * base2);
+}
 
 /* What a sample of single scattering adds, for a light of radiance 1 in a solid angle of 1: light that enters where the normal is Ni, goes
  * in for a straight distance of before, is turned and goes along To (from the eye, refracted) for a distance of after; over the density
@@ -73,11 +89,10 @@ color lightat(point Pi; normal Ni) {
 /* Diffusion of all lights: rays find places of the surface round P, where the light is that of their own, then the dipole brings it to P.
  * The samples spread by the longest free path of the three colours, or colours would separate into grain. Places are found on both sides
  * of the tangent plane, the one nearest to the outside first. `map`: "", or a texture that is the albedo at each place (times
- * `albedo`), looked up at its primitive's s and t. At most SUBSURFACE_PLACES samples.
+ * `albedo`), looked up at its primitive's s and t.
  */
 color diffusionscattering(point P; normal Nn; color albedo; color freepath; float eta; uniform float samples; uniform string subset;
                           uniform string map) {
-#include "diffusionplaces.h"
   float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
   vector up = abs(xcomp(Nn)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0);
   vector base1 = normalize(Nn ^ up), base2 = base1 ^ Nn;
@@ -85,9 +100,8 @@ color diffusionscattering(point P; normal Nn; color albedo; color freepath; floa
   uniform float i;
   color sum = 0;
   for (i = 0; i < samples; i += 1) {
-    float x = scattdiffdist1[i], y = scattdiffdist2[i];
-    float r = sqrt(x * x + y * y), angle = atan(y, x) + turn;
-    vector aside = r * reach * (cos(angle) * base1 + sin(angle) * base2);
+    float r = 0;
+    vector aside = reach * diffusionplace(i, samples, turn, base1, base2, r);
     float probe = (r + 0.25) * reach;
     point Pi = 0;
     normal Ni = 0;
@@ -180,7 +194,6 @@ color singlescatteringbymap(point P; normal Nn; vector In; vector L; color sigma
 color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; float eta; uniform float samples; uniform string map;
                                uniform string inner; float soft) {
   vector toLight = normalize(L);
-#include "diffusionplaces.h"
   float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
   vector up = abs(xcomp(toLight)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0);
   vector base1 = normalize(toLight ^ up), base2 = base1 ^ toLight;
@@ -188,9 +201,8 @@ color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; 
   uniform float i;
   color sum = 0;
   for (i = 0; i < samples; i += 1) {
-    float x = scattdiffdist1[i], y = scattdiffdist2[i];
-    float r = sqrt(x * x + y * y), angle = atan(y, x) + turn;
-    point place = P + r * reach * (cos(angle) * base1 + sin(angle) * base2), Pi = 0;
+    float r = 0;
+    point place = P + reach * diffusionplace(i, samples, turn, base1, base2, r), Pi = 0;
     if (entrybymap(map, place, Pi) == 1)
       sum += pastblockers(inner, place, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta) *
              (2 * PI * reach * reach * exp(r));

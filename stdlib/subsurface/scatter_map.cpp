@@ -37,6 +37,9 @@ slvm::Result<ScatterMap> ScatterMap::build(const PointCloud& cloud) {
   return map;
 }
 
+/// Of normals: where a pixel holds less than this part of a sample, the rest is of nothing.
+constexpr float kShortest = 0.9f;
+
 slvm::Result<PointCloud> cloud_of_scatter_images(size_t width, size_t height, std::span<const float> position,
                                                  std::span<const float> normal, std::span<const float> area) {
   const size_t pixels = width * height;
@@ -50,6 +53,7 @@ slvm::Result<PointCloud> cloud_of_scatter_images(size_t width, size_t height, st
     const Vec3 p{position[3 * i], position[3 * i + 1], position[3 * i + 2]};
     const Vec3 n{normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]};
     if (!(area[i] > 0) || !std::isfinite(area[i]) || !is_finite(p) || !is_finite(n)) continue;
+    if (length2(n) < kShortest * kShortest) continue;
     cloud.position.push_back(p);
     cloud.normal.push_back(n);
     cloud.area.push_back(area[i]);

@@ -42,7 +42,7 @@ private:
 
 /// The three pictures of a scatter map (5.4), pixel by pixel: positions and normals with three channels,
 /// areas with one. Pixels whose area is not above 0, or that hold something that is not finite, show no
-/// surface.
+/// surface; neither do those that a filter mixed with nothing, whose normals are too short.
 slvm::Result<PointCloud> cloud_of_scatter_images(size_t width, size_t height, std::span<const float> position,
                                                  std::span<const float> normal, std::span<const float> area);
 

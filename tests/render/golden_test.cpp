@@ -54,7 +54,9 @@ TEST_P(Golden, picture) {
 
 INSTANTIATE_TEST_SUITE_P(Render, Golden,
                          ::testing::Values("motion_blur", "depth_of_field", "transparency_matte", "variables",
-                                           "shadow_map", "environment", "subpixel", "depth_mask", "solids"),
+                                           "shadow_map", "environment", "subpixel", "depth_mask", "solids",
+                                           "subsurface_cube", "subsurface_teapot", "subsurface_milk",
+                                           "subsurface_head"),
                          [](const auto& test) { return test.param; });
 
 class GoldenFilter : public Golden {};

@@ -254,6 +254,9 @@ TEST(Scatter, MapsFromPictures) {
   const auto cloud = cloud_of_scatter_images(2, 2, P, N, A);
   ASSERT_TRUE(cloud);
   ASSERT_EQ(cloud->size(), 2u);
+  std::vector<float> mixed = N; // with the emptiness beside, by a filter
+  mixed[2] = 0.6f;
+  EXPECT_EQ(cloud_of_scatter_images(2, 2, P, mixed, A)->size(), 1u);
   const auto map = ScatterMap::build(*cloud);
   ASSERT_TRUE(map);
   EXPECT_EQ(map->area(1), 0.25f);

@@ -1,0 +1,206 @@
+// Light below surfaces in several passes, beside closed forms: points from grids, lit and looked up; shadow
+// maps.
+#include "stdlib/subsurface/point_cloud.h"
+#include "tests/render/run_slrender.h"
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using ::testing::HasSubstr;
+
+class SubsurfacePasses : public anemone::test::SlrenderTest {
+protected:
+  void render(const std::string& rib, const std::string& arguments = "") {
+    file("a.rib", rib);
+    const Outcome o = run(arguments + " a.rib");
+    EXPECT_EQ(o.text, "");
+    EXPECT_EQ(o.status, 0);
+  }
+  /// The mean of a channel of all pixels.
+  double mean(const std::string& name, size_t channel = 0) {
+    const auto p = pixels(name);
+    double sum = 0;
+    for (size_t i = channel; i < p.size(); i += 3)
+      sum += static_cast<double>(p[i]);
+    EXPECT_FALSE(p.empty());
+    return sum / static_cast<double>(p.size() / 3);
+  }
+  /// One pixel of the middle.
+  double middle(const std::string& name, size_t channel = 0) {
+    const auto p = pixels(name);
+    const size_t side = p.empty() ? 0 : static_cast<size_t>(std::sqrt(static_cast<double>(p.size()) / 3));
+    return p.empty() ? -1 : static_cast<double>(p[3 * (side / 2 * side + side / 2) + channel]);
+  }
+};
+
+/// A frame with a camera above the middle of a plate, 2 `window` wide.
+std::string frame(int number, const std::string& output, double window, int pixels,
+                  const std::string& world) {
+  return fmt::format(
+      "FrameBegin {}\nFormat {} {} 1\nPixelSamples 1 1\nPixelFilter \"box\" 1 1\n"
+      "Display \"{}\" \"tiff\" \"rgb\" \"float[4] quantize\" [0 0 0 0]\nProjection \"orthographic\"\n"
+      "ScreenWindow {} {} {} {}\nTranslate 0 0 20\nWorldBegin\n{}\nWorldEnd\nFrameEnd\n",
+      number, pixels, pixels, output, -window, window, -window, window, world);
+}
+
+const char* const kSlantedLight =
+    "LightSource \"distantlight\" 1 \"from\" [-0.8660254 0 -0.5] \"to\" [0 0 0] \"intensity\" 2\n";
+const char* const kPlate = "Polygon \"P\" [-10 -10 0 -10 10 0 10 10 0 10 -10 0]\n";
+
+// In even light the middle of a wide plate returns its albedo: V6 of the course's figures.
+TEST_F(SubsurfacePasses, PointsFromGridsLitByTheLightPass) {
+  render(frame(1, "null.tif", 11, 330,
+               std::string("Surface \"bakepoints\" \"file\" \"points.ply\"\n") + kPlate) +
+         frame(2, "null.tif", 11, 8,
+               std::string(kSlantedLight) +
+                   "Surface \"lightpoints\" \"input\" \"points.ply\" \"result\" \"lit.ply\"\n"
+                   "Points \"P\" [0 0 0] \"constantwidth\" 1") +
+         frame(3, "out.tif", 0.5, 8,
+               std::string("Surface \"translucentsolid\" \"cloud\" \"lit.ply\" \"color albedo\" [.8 .5 .2]"
+                           " \"color freepath\" [2 1 1] \"eta\" 1.3 \"Kspecular\" 0\n") +
+                   kPlate));
+  const auto points = subsurface::read_point_cloud((directory_ / "points.ply").string());
+  ASSERT_TRUE(points);
+  EXPECT_NEAR(points->total_area(), 400, 0.1);
+  EXPECT_TRUE(points->irradiance.empty());
+  const auto lit = subsurface::read_point_cloud((directory_ / "lit.ply").string());
+  ASSERT_TRUE(lit);
+  ASSERT_EQ(lit->size(), points->size());
+  for (const subsurface::Color& E : lit->irradiance)
+    EXPECT_NEAR(E.x, 1, 1e-5);
+  const double out = 0.98298677; // Ft straight out, eta 1.3
+  EXPECT_NEAR(middle("out.tif", 0), 0.8 * out, 0.012);
+  EXPECT_NEAR(middle("out.tif", 1), 0.5 * out, 0.004);
+  EXPECT_NEAR(middle("out.tif", 2), 0.2 * out, 0.002);
+}
+
+TEST_F(SubsurfacePasses, ColoursOfPointsAndLightAtOnce) {
+  render(frame(1, "null.tif", 11, 330,
+               std::string(kSlantedLight) +
+                   "Color .6 .4 .1\nSurface \"bakepoints\" \"file\" \"lit.ply\" \"lit\" 1\n" + kPlate) +
+         frame(2, "out.tif", 0.5, 8,
+               std::string("Surface \"translucentsolid\" \"cloud\" \"lit.ply\" \"textured\" 1"
+                           " \"color freepath\" [2 1 1] \"eta\" 1.3 \"Kspecular\" 0\n") +
+                   kPlate));
+  EXPECT_NEAR(middle("out.tif", 0), 0.6 * 0.983, 0.006);
+  EXPECT_NEAR(middle("out.tif", 1), 0.4 * 0.983, 0.004);
+  EXPECT_NEAR(middle("out.tif", 2), 0.1 * 0.983, 0.001);
+}
+
+TEST_F(SubsurfacePasses, TheSamePictureForAnyNumberOfThreads) {
+  auto passes = [&](const std::string& picture) {
+    return frame(1, "null.tif", 1.5, 100,
+                 std::string(kSlantedLight) +
+                     "Attribute \"cull\" \"hidden\" 0 \"backfacing\" 0\n"
+                     "Surface \"bakepoints\" \"file\" \"ball.ply\" \"lit\" 1\nSphere 1 -1 1 360") +
+           frame(2, picture, 1.5, 32,
+                 "Surface \"translucentsolid\" \"cloud\" \"ball.ply\" \"material\" \"skin2\" \"mm\" "
+                 ".1\nSphere 1 -1 1 360");
+  };
+  render(passes("one.tif"), "-t:1");
+  const std::string cloud = directory_.read("ball.ply");
+  render(passes("four.tif"), "-t:4");
+  EXPECT_EQ(cloud, directory_.read("ball.ply"));
+  EXPECT_EQ(pixels("one.tif"), pixels("four.tif"));
+}
+
+// What is inside takes away a part of what the same surface outside would give.
+TEST_F(SubsurfacePasses, BlockingByACloudInside) {
+  auto look = [&](const std::string& inner) {
+    render(frame(1, "null.tif", 11, 330,
+                 std::string(kSlantedLight) + "Surface \"bakepoints\" \"file\" \"lit.ply\" \"lit\" 1\n" +
+                     kPlate) +
+           frame(2, "out.tif", 0.5, 8,
+                 "Surface \"translucentsolid\" \"cloud\" \"lit.ply\" \"string inner\" \"" + inner +
+                     "\" \"blocking\" .25 \"color albedo\" [.8 .5 .2]"
+                     " \"color freepath\" [2 1 1] \"eta\" 1.3 \"Kspecular\" 0\n" +
+                     kPlate));
+    return middle("out.tif", 1);
+  };
+  const double plain = look("");
+  EXPECT_NEAR(look("lit.ply"), 0.75 * plain, 1e-4);
+}
+
+const char* const kByMap = R"(
+#include "subsurface.h"
+surface bymap(uniform string map = "", normals = "", inner = ""; uniform float diffusion = 0;) {
+  vector In = normalize(I);
+  normal Nn = normalize(N);
+  color c = 0;
+  illuminance(P, Nn, PI) {
+    if (diffusion == 0)
+      c += Cl * singlescatteringbymap(P, Nn, In, L, .2, 1.8, .6, 1.4, 16, map, normals, inner, .05);
+    else
+      c += Cl * diffusionscatteringbymap(P, L, color (.8, .5, .5), color (.2, .2, .1), 1.3, 64, map, inner, .05);
+  }
+  Oi = 1;
+  Ci = c;
+}
+)";
+
+class SubsurfaceByMaps : public SubsurfacePasses {
+protected:
+  /// A frame of a light's view along (sin 60, 0, cos 60) on the origin: NAMEz.tif and NAMEn.tif.
+  static std::string light_view(int number, const std::string& name, const std::string& projection,
+                                const std::string& world) {
+    return fmt::format(
+        "FrameBegin {0}\nFormat 256 256 1\nPixelSamples 1 1\nPixelFilter \"box\" 1 1\n"
+        "Hider \"hidden\" \"int jitter\" 0\nDisplay \"{1}z.tif\" \"zfile\" \"z\"\n"
+        "Display \"+{1}n.tif\" \"tiff\" \"varying normal N\" \"float[4] quantize\" [0 0 0 0]\n{2}\n"
+        "Translate 0 0 80\nRotate -60 0 1 0\nWorldBegin\nSurface \"constant\"\n{3}\nWorldEnd\nFrameEnd\n",
+        number, name, projection, world);
+  }
+  static std::string picture(int number, const std::string& output, const std::string& parameters) {
+    return frame(
+        number, output, 0.3, 48,
+        "LightSource \"distantlight\" 1 \"from\" [-0.8660254 0 -0.5] \"to\" [0 0 0]\nSurface \"bymap\" " +
+            parameters + "\n" + kPlate);
+  }
+  void SetUp() override { file("bymap.sl", kByMap); }
+  static constexpr const char* kStraight = "Projection \"orthographic\"\nScreenWindow -1.5 1.5 -1.5 1.5";
+};
+
+// The closed form of single scattering on a half-space, by which terms.toml checks rays; half the light of 60
+// degrees times the albedo.
+TEST_F(SubsurfaceByMaps, OfLightsWithParallelAndWithSpreadingRays) {
+  for (const char* projection : {kStraight, "Projection \"perspective\" \"fov\" 2.2"}) {
+    render(light_view(1, "l", projection, kPlate) +
+           picture(2, "single.tif", "\"map\" \"lz.tif\" \"normals\" \"ln.tif\"") +
+           picture(3, "diffusion.tif", "\"map\" \"lz.tif\" \"diffusion\" 1"));
+    EXPECT_NEAR(mean("single.tif"), 0.0054629, 0.0001) << projection;
+    EXPECT_NEAR(mean("diffusion.tif", 0), 0.4, 0.03) << projection;
+    EXPECT_NEAR(mean("diffusion.tif", 1), 0.25, 0.004) << projection;
+    EXPECT_NEAR(mean("diffusion.tif", 2), 0.25, 0.006) << projection;
+  }
+}
+
+// Something that the light's view meets before it reaches the samples lets nothing through; behind them it
+// does not count.
+TEST_F(SubsurfaceByMaps, BlockersInside) {
+  const std::string above = "Polygon \"P\" [-10 -10 -1 -10 10 -1 10 10 -1 10 -10 -1]\n",
+                    below = "Polygon \"P\" [-10 -10 9 -10 10 9 10 10 9 10 -10 9]\n";
+  for (const char* diffusion : {"0", "1"}) {
+    const std::string maps =
+        std::string("\"map\" \"lz.tif\" \"normals\" \"ln.tif\" \"diffusion\" ") + diffusion;
+    render(light_view(1, "l", kStraight, kPlate) + light_view(2, "above", kStraight, above) +
+           light_view(3, "below", kStraight, below) + picture(4, "free.tif", maps) +
+           picture(5, "above.tif", maps + " \"inner\" \"abovez.tif\"") +
+           picture(6, "below.tif", maps + " \"inner\" \"belowz.tif\""));
+    EXPECT_LT(mean("above.tif"), 1e-5); // beyond the edge of the map nothing blocks
+    EXPECT_GT(mean("free.tif"), 0.005);
+    EXPECT_EQ(pixels("below.tif"), pixels("free.tif"));
+  }
+}
+
+TEST_F(SubsurfacePasses, AFileThatIsMissingIsNamedWithTheShadersLine) {
+  file("a.rib",
+       frame(1, "out.tif", 0.5, 8,
+             std::string("Surface \"translucentsolid\" \"cloud\" \"none.ply\" \"material\" \"skin1\"\n") +
+                 kPlate));
+  const Outcome o = run("a.rib");
+  EXPECT_THAT(o.text, HasSubstr("pointscattering.h:"));
+  EXPECT_THAT(o.text, HasSubstr("subsurface.so: cannot open 'none.ply'"));
+}
+
+} // namespace
