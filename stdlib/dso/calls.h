@@ -16,8 +16,9 @@ ANEMONE_CALL(get_normal);
 ANEMONE_CALL(accumulate);
 ANEMONE_CALL(write_cache);
 
-// bake_calls.cpp: clouds of the points of grids.
+// bake_calls.cpp: clouds and meshes of grids.
 ANEMONE_CALL(bake_points);
+ANEMONE_CALL(bake_mesh);
 
 // diffusion_calls.cpp: lookups in lit clouds.
 ANEMONE_CALL(diffusion_of_material);

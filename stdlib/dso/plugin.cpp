@@ -18,6 +18,7 @@ const RslFunction kFunctions[] = {
      NULL},
     {"void bakepoints(uniform string file, point P, normal N, color albedo, color irradiance)", bake_points,
      NULL, NULL, NULL, NULL},
+    {"void bakemesh(uniform string file, point P, normal N)", bake_mesh, NULL, NULL, NULL, NULL},
 
     {"color diffusion(point P, uniform string cloud, uniform string material, uniform float mm, uniform "
      "float "

@@ -56,6 +56,18 @@ void weld(TriangleMesh& mesh) {
   for (size_t t = 0; t < mesh.triangles.size(); ++t)
     if (mesh.area(t) > 0) kept.push_back(mesh.triangles[t]);
   mesh.triangles = std::move(kept);
+  constexpr uint32_t kUnused = ~0u;
+  std::fill(into.begin(), into.end(), kUnused);
+  std::vector<Vec3> used;
+  for (auto& triangle : mesh.triangles)
+    for (uint32_t& corner : triangle) {
+      if (into[corner] == kUnused) {
+        into[corner] = static_cast<uint32_t>(used.size());
+        used.push_back(mesh.vertices[corner]);
+      }
+      corner = into[corner];
+    }
+  mesh.vertices = std::move(used);
 }
 
 namespace {
@@ -91,6 +103,21 @@ slvm::Result<TriangleMesh> parse_mesh(std::span<const std::byte> bytes, const st
   if (std::string problem = add_faces(*faces, mesh); !problem.empty())
     return slvm::Error{fmt::format("{}: {}", name, problem)};
   return mesh;
+}
+
+slvm::Result<bool> write_mesh(const std::string& path, const TriangleMesh& mesh) {
+  std::string out =
+      fmt::format("ply\nformat binary_little_endian 1.0\ncomment mesh of Anemone\nelement vertex {}\n"
+                  "property float x\nproperty float y\nproperty float z\nelement face {}\n"
+                  "property list uchar uint vertex_indices\nend_header\n",
+                  mesh.vertices.size(), mesh.triangles.size());
+  auto put = [&](const void* data, size_t size) { out.append(static_cast<const char*>(data), size); };
+  put(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vec3));
+  for (const auto& triangle : mesh.triangles) {
+    out.push_back(3);
+    put(triangle.data(), sizeof triangle);
+  }
+  return slvm::write_file(path, std::as_bytes(std::span(out)));
 }
 
 slvm::Result<TriangleMesh> read_mesh(const std::string& path) {

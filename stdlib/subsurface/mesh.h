@@ -24,13 +24,15 @@ struct TriangleMesh {
 /// Corner i of the triangles of a grid of nu by nv points, row by row, is point i: two triangles a
 /// micropolygon. The seams of neighbouring grids are closed by weld().
 void append_grid(TriangleMesh& mesh, size_t nu, size_t nv, std::span<const Vec3> points);
-/// Makes one of vertices that are equal, and drops triangles without area.
+/// Makes one of vertices that are equal, and drops triangles without area and vertices without triangles.
 void weld(TriangleMesh& mesh);
 
 /// From the elements "vertex" and "face" of a PLY file; faces with more corners become fans. Fails on indices
 /// that are out of range and on positions that are not finite.
 slvm::Result<TriangleMesh> parse_mesh(std::span<const std::byte> bytes, const std::string& name);
 slvm::Result<TriangleMesh> read_mesh(const std::string& path);
+/// The same, binary, into a temporary file that is renamed.
+slvm::Result<bool> write_mesh(const std::string& path, const TriangleMesh& mesh);
 
 /// The triangles beyond the edges. Edge k goes from corner k to corner k+1. Where more than two triangles
 /// meet, the first two are neighbours, the others have a border there.

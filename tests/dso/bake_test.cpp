@@ -1,4 +1,5 @@
 // bakepoints: a point a micropolygon, written when the frame ends, in an order that no thread decides.
+#include "stdlib/subsurface/mesh.h"
 #include "tests/dso/with_plugin.h"
 
 namespace subsurface::test {
@@ -71,6 +72,25 @@ TEST_F(BakePoints, TheOrderDoesNotDependOnThreads) {
   const std::string one = bake("a.ply", false), other = bake("b.ply", true);
   EXPECT_EQ(cloud("a.ply").size(), 36u);
   EXPECT_EQ(one, other);
+}
+
+TEST_F(BakePoints, MeshesAreWeldedAndFaceAlongN) {
+  for (std::string n : {"normal(0, 0, 1)", "normal(0, 0, -1)"}) {
+    run("bakemesh(" + quoted("m.ply") + ", P, " + n + "); bakemesh(" + quoted("m.ply") +
+            ", P + vector(1, 0, 0), " + n + ");",
+        5, 3);
+    machine.end_plugins();
+    EXPECT_THAT(messages(), IsEmpty());
+    const auto mesh = read_mesh(path("m.ply"));
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(mesh->vertices.size(), 27u); // 9 by 3
+    EXPECT_EQ(mesh->triangles.size(), 32u);
+    EXPECT_NEAR(mesh->total_area(), 2, 1e-6);
+    for (size_t t = 0; t < mesh->triangles.size(); ++t)
+      EXPECT_EQ(mesh->wide_normal(t).z > 0, n == "normal(0, 0, 1)");
+  }
+  run("bakemesh(\"\", P, N);", 2, 2);
+  EXPECT_THAT(new_messages(), ElementsAre(HasSubstr("bakemesh() needs the name of a file")));
 }
 
 TEST_F(BakePoints, LightAtAllPointsOrAtNone) {
