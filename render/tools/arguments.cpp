@@ -89,8 +89,8 @@ void add_places(CLI::App& app, Places& places, Arguments& out) {
       "from nowhere else (environment: ANEMONE_PROCEDURALS)");
   app.add_option(
       "--dso", places.plugins,
-      "directories of plug-ins that shaders may call, separated by ':'; none by default: they are native "
-      "code (environment: ANEMONE_DSO_PATH)");
+      "directories of plug-ins that shaders may call, separated by ':'; by default only those that come with "
+      "Anemone: they are native code (environment: ANEMONE_DSO_PATH)");
 }
 
 void take_places(const Places& places, Arguments& out) {

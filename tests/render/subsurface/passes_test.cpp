@@ -122,8 +122,8 @@ TEST_F(SubsurfacePasses, BlockingByACloudInside) {
   EXPECT_NEAR(look("lit.ply"), 0.75 * plain, 1e-4);
 }
 
-const char* const kByMap = R"(
-#include "subsurface.h"
+const char* const kByMap = "#include \"subsurface.h\"\n"
+                           R"(
 surface bymap(uniform string map = "", normals = "", inner = ""; uniform float diffusion = 0;) {
   vector In = normalize(I);
   normal Nn = normalize(N);
