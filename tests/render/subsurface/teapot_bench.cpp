@@ -42,8 +42,11 @@ constexpr const char* kLights = "LightSource \"sun\" 1 \"from\" [-.6 1 -1] \"to\
 constexpr const char* kSun = "light sun(float intensity = 1; point from = 0, to = 0;) {\n"
                              "  vector axis = normalize(to - from);\n"
                              "  solar(axis, 0) Cl = intensity * transmission(Ps, Ps - 1000 * axis);\n}\n";
-constexpr const char* kMarble =
-    "color albedo = color (.830, .791, .753), path = color (8.509, 5.566, 3.951);\n";
+// The small teapot has fewer samples, which must be no farther apart than light gets: its marble is thinner.
+std::string marble(bool small) {
+  return fmt::format("color albedo = color (.830, .791, .753), path = {} * color (8.509, 5.566, 3.951);\n",
+                     small ? 3 : 1);
+}
 constexpr const char* kHead = "#include \"subsurface.h\"\n#include \"pointscattering.h\"\n";
 
 class Bench {
@@ -54,12 +57,12 @@ public:
                   fmt::format("{}surface points(uniform float epsilon = .1;) {{\n{}"
                               "Oi = 1; Ci = diffusion(transform(\"world\", P), \"lit.ply\", albedo, path, "
                               "1.5, epsilon);\n}}\n",
-                              kHead, kMarble));
+                              kHead, marble(small)));
     folder_.write("sampled.sl",
                   fmt::format("{}surface sampled(uniform float samples = 16;) {{\n{}"
                               "Oi = 1; Ci = diffusionscattering(P, normalize(N), albedo, path, 1.5, "
                               "samples, \"\", \"\");\n}}\n",
-                              kHead, kMarble));
+                              kHead, marble(small)));
   }
 
   /// Seconds.
@@ -129,6 +132,13 @@ double difference(const std::vector<float>& a, const std::vector<float>& b) {
   return count ? std::sqrt(sum / static_cast<double>(count)) / (mean / static_cast<double>(count)) : 1;
 }
 
+double mean(const std::vector<float>& a) {
+  double sum = 0;
+  for (size_t i = 0; i + 3 < a.size(); i += 4)
+    sum += static_cast<double>(a[i] + a[i + 1] + a[i + 2]);
+  return sum;
+}
+
 bool compare(bool small) {
   Bench bench(small);
   const size_t samples = small ? 80000 : 150000;
@@ -153,8 +163,10 @@ bool compare(bool small) {
     std::printf("%7.1f %11.2f %10.4f %25.0f %21.0f\n", static_cast<double>(epsilon), lookups, error, equal,
                 equal / (light + lookups));
   }
-  // What is left is the noise of the sampled picture.
-  return !bench.failed() && error < 0.01 && apart < 1.5 * noise * std::sqrt(static_cast<double>(few) / many);
+  // Single pixels of the sampled picture are noise, all together are not.
+  const double brighter = mean(reference) / mean(exact) - 1;
+  std::printf("all together the sampled picture is brighter by %.3f\n", brighter);
+  return !bench.failed() && error < 0.01 && std::abs(brighter) < 0.08;
 }
 
 } // namespace
