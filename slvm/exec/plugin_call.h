@@ -13,6 +13,16 @@ void call_plugin(const GridCall& call, HostedFunction& function);
 /// What sdk/rx.h asks of the program.
 const AnemonePluginServices& plugin_services();
 
+// Parts of these services. `context`: a PluginContext; null outside of calls.
+int plugin_lookup(void* context, const AnemoneLookup* lookup);
+int plugin_texture_info(void* context, const char* map, const char* name, void* result, int length,
+                        RxInfoType_t* type, int* count);
+/// The call that is under way, or null.
+const GridCall* call_of(void* context);
+/// Stores the answer to a query as sdk/rx.h has it.
+int give_value(const GridCall& call, const Value& value, void* result, int length, RxInfoType_t* type,
+               int* count);
+
 /// An argument as the call's operands have it: read from `from`, stored to `to`; either may be null.
 struct PluginOperand {
   SignatureParam what;

@@ -48,10 +48,6 @@ int noise(int kind, int in_dimension, const float* in, const float* period, int 
   return 0;
 }
 
-const GridCall* call_of(void* context) {
-  return context ? static_cast<PluginContext*>(context)->call : nullptr;
-}
-
 int matrix(void* context, const char* from, const char* to, float* sixteen) {
   const GridCall* call = call_of(context);
   Matrix4 first, second;
@@ -86,7 +82,22 @@ int query(void* context, int kind, const char* name, void* result, int length, R
                      : kind == 1 ? services.option(state, name, value)
                                  : services.renderer_info(state, name, value);
   if (!found) return -1;
-  StringPool& strings = call->run.state.machine.strings();
+  return give_value(*call, value, result, length, type, count);
+}
+
+void* context_of_call(void* context) {
+  return context ? static_cast<RixContext*>(static_cast<PluginContext*>(context)) : nullptr;
+}
+
+} // namespace
+
+const GridCall* call_of(void* context) {
+  return context ? static_cast<PluginContext*>(context)->call : nullptr;
+}
+
+int give_value(const GridCall& call, const Value& value, void* result, int length, RxInfoType_t* type,
+               int* count) {
+  StringPool& strings = call.run.state.machine.strings();
   std::vector<const char*> texts;
   for (const std::string& s : value.strings)
     texts.push_back(strings.text(strings.intern(s)).data());
@@ -102,15 +113,9 @@ int query(void* context, int kind, const char* name, void* result, int length, R
   return 0;
 }
 
-void* context_of_call(void* context) {
-  return context ? static_cast<RixContext*>(static_cast<PluginContext*>(context)) : nullptr;
-}
-
-} // namespace
-
 const AnemonePluginServices& plugin_services() {
-  static constexpr AnemonePluginServices kServices{ANEMONE_PLUGIN_SERVICES, noise, matrix, query,
-                                                   context_of_call};
+  static constexpr AnemonePluginServices kServices{
+      ANEMONE_PLUGIN_SERVICES, noise, matrix, query, context_of_call, plugin_lookup, plugin_texture_info};
   return kServices;
 }
 

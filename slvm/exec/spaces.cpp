@@ -25,6 +25,12 @@ bool named_space(const ShaderRun& run, std::string_view space, bool forward, Mat
                  : run.state.services.current_to_space(state, space, m);
 }
 
+Matrix4 current_to_world(const ShaderRun& run) {
+  Matrix4 m;
+  run.state.services.current_to_space(run.shading_state(), "world", m);
+  return m;
+}
+
 namespace {
 
 std::string_view text_of(const GridCall& call, size_t operand) {

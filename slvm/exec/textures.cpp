@@ -5,8 +5,10 @@
 // grid to the next; with four, the quadrilateral between them. "width" scales it, "blur" is the renderer's to
 // add.
 #include "slvm/exec/differences.h"
+#include "slvm/exec/lookup_region.h"
 #include "slvm/exec/query.h"
 #include "slvm/exec/rays/ray_means.h"
+#include "slvm/exec/spaces.h"
 
 #include <bit>
 #include <cmath>
@@ -14,14 +16,6 @@
 
 namespace slvm {
 namespace {
-
-enum class MapKind : uint8_t { kTexture, kEnvironment, kShadow };
-
-Matrix4 current_to_world(const ShaderRun& run) {
-  Matrix4 m;
-  run.state.services.current_to_space(run.shading_state(), "world", m);
-  return m;
-}
 
 class LookupCall {
 public:
@@ -42,16 +36,12 @@ public:
     if (lookup_.map.empty()) return; // no map is no mistake
     read_region();
     read_tokens();
-    scale_region();
+    scale_region(lookup_, dimensions_, widths_);
     const ShaderRun& run = call_.run;
     uint64_t one_point = run.mask.any();
     lookup_.mask = out_.step ? run.mask.current() : &one_point;
     if (kind_ == MapKind::kShadow) lookup_.current_to_world = current_to_world(run);
-    TextureServices* textures = run.state.services.textures();
-    std::string problem = !textures                        ? "there are no textures here"
-                          : kind_ == MapKind::kTexture     ? textures->texture(lookup_)
-                          : kind_ == MapKind::kEnvironment ? textures->environment(lookup_)
-                                                           : textures->shadow(lookup_);
+    const std::string problem = look_up(run.state.services.textures(), kind_, lookup_);
     if (!problem.empty())
       run.report(call_.code, MessageSeverity::kWarning,
                  fmt::format("{} \"{}\": {}", call_.info.name, lookup_.map, problem), lookup_.points);
@@ -127,7 +117,6 @@ private:
     }
   }
 
-  // Corners come row by row, as those of a patch, or in turn: the order in which they enclose more is meant.
   void four_corners() {
     for (size_t c = 0; c < dimensions_; ++c) {
       lookup_.centre[c].resize(lookup_.points);
@@ -135,27 +124,12 @@ private:
       lookup_.along_v[c].resize(lookup_.points);
     }
     for (size_t i = 0; i < lookup_.points; ++i) {
-      float rows_u[3] = {}, rows_v[3] = {}, turn_u[3] = {}, turn_v[3] = {};
-      for (size_t c = 0; c < dimensions_; ++c) {
-        float k[4];
-        for (size_t corner = 0; corner < 4; ++corner)
-          k[corner] = at(component(corner, c), i);
-        lookup_.centre[c][i] = 0.25f * (k[0] + k[1] + k[2] + k[3]);
-        rows_u[c] = 0.5f * (k[1] - k[0] + k[3] - k[2]);
-        rows_v[c] = 0.5f * (k[2] - k[0] + k[3] - k[1]);
-        turn_u[c] = 0.5f * (k[1] - k[0] + k[2] - k[3]);
-        turn_v[c] = 0.5f * (k[3] - k[0] + k[2] - k[1]);
-      }
-      bool rows = enclosed(rows_u, rows_v) >= enclosed(turn_u, turn_v);
-      for (size_t c = 0; c < dimensions_; ++c) {
-        lookup_.along_u[c][i] = rows ? rows_u[c] : turn_u[c];
-        lookup_.along_v[c][i] = rows ? rows_v[c] : turn_v[c];
-      }
+      float corners[4][3] = {};
+      for (size_t k = 0; k < 4; ++k)
+        for (size_t c = 0; c < dimensions_; ++c)
+          corners[k][c] = at(component(k, c), i);
+      set_region(lookup_, i, dimensions_, corners);
     }
-  }
-  static float enclosed(const float (&u)[3], const float (&v)[3]) {
-    float x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
-    return x * x + y * y + z * z;
   }
 
   // ---- Token-value pairs.
@@ -176,41 +150,9 @@ private:
         if (token == "filter") lookup_.options.filter = text_of(call_.run, value.planes);
         continue;
       }
-      if (token == "blur")
-        lookup_.sblur = lookup_.tblur = values(value.planes);
-      else if (token == "sblur")
-        lookup_.sblur = values(value.planes);
-      else if (token == "tblur")
-        lookup_.tblur = values(value.planes);
-      else if (token == "width")
-        swidth_ = twidth_ = values(value.planes);
-      else if (token == "swidth")
-        swidth_ = values(value.planes);
-      else if (token == "twidth")
-        twidth_ = values(value.planes);
-      else if (token == "bias")
-        lookup_.bias = values(value.planes);
-      else if (token == "samples")
-        lookup_.options.samples = *value.planes.data;
-      else if (token == "fill")
-        lookup_.options.fill = *value.planes.data;
-      else if (token == "lerp")
-        lookup_.options.between_levels = *value.planes.data != 0;
-      else
+      if (!set_lookup_option(lookup_, widths_, token, values(value.planes)))
         call_.run.report(call_.code, MessageSeverity::kWarning,
                          fmt::format("{}: \"{}\" has no effect", call_.info.name, token), lookup_.points);
-    }
-  }
-
-  void scale_region() {
-    for (size_t c = 0; c < dimensions_; ++c) {
-      const std::vector<float>& width = c == 1 && dimensions_ == 2 ? twidth_ : swidth_;
-      if (width.empty()) continue;
-      for (size_t i = 0; i < lookup_.points; ++i) {
-        float scale = TextureLookup::at(width, i);
-        lookup_.along_u[c][i] *= scale;
-        lookup_.along_v[c][i] *= scale;
-      }
     }
   }
 
@@ -219,7 +161,7 @@ private:
   TextureLookup lookup_;
   Operand out_;
   size_t dimensions_ = 2, tokens_from_ = 0;
-  std::vector<float> swidth_, twidth_;
+  LookupWidths widths_;
 };
 
 /// The map that stands for rays.

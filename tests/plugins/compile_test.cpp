@@ -101,8 +101,9 @@ TEST_F(PluginCompile, ThereAreBoundsToHowManyAreCalled) {
     return text;
   };
   EXPECT_FALSE(compile("surface s() { " + calls(4096) + " }").empty()) << diagnostics;
-  EXPECT_THAT(complaint(calls(4097)), HasSubstr("more than 4096 functions of plug-ins are called, counting what they are "
-                                                "let store to"));
+  EXPECT_THAT(complaint(calls(4097)),
+              HasSubstr("more than 4096 functions of plug-ins are called, counting what they are "
+                        "let store to"));
 }
 
 // ---- Programs.

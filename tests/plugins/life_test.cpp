@@ -158,5 +158,78 @@ TEST_F(PluginLife, NoiseSpacesAndAttributes) {
   EXPECT_THAT(p.messages(), IsEmpty());
 }
 
+/// Maps whose values tell what was asked.
+class ToldMaps : public TextureServices {
+public:
+  std::string texture(const TextureLookup& l) override { return tell(l, 1000); }
+  std::string environment(const TextureLookup& l) override { return tell(l, 2000); }
+  std::string shadow(const TextureLookup& l) override { return tell(l, 3000); }
+  bool info(std::string_view map, std::string_view field, const Matrix4&, Value& out) override {
+    out = {Type::kFloat, 2, {640, 480}, {}};
+    return map == "map" && field == "resolution";
+  }
+
+private:
+  // Channel, then what there is of: middle, sides, blur or bias, filter.
+  static std::string tell(const TextureLookup& l, float kind) {
+    if (l.map != "map") return "it is missing";
+    EXPECT_EQ(l.points, 1u);
+    const float sides = 100 * l.along_u[0][0] + 10 * l.along_v[1][0];
+    for (uint32_t c = 0; c < l.channels; ++c)
+      l.result[c][0] = kind + sides + l.centre[0][0] + TextureLookup::at(l.sblur, 0) +
+                       TextureLookup::at(l.bias, 0) + (l.options.filter == "box" ? 0.25f : 0) +
+                       0.01f * static_cast<float>(l.first_channel + c);
+    return "";
+  }
+};
+
+struct WithMaps : TableServices {
+  ToldMaps maps;
+  TextureServices* textures() override { return &maps; }
+};
+
+struct PluginMaps : ::testing::Test, Plugged {
+  /// sv_maps at x = 0 and x = 1.
+  std::vector<float> ask(const std::string& what, const std::string& map, size_t component) {
+    auto surface = bind("surface s() { Ci = sv_maps(P, \"" + what + "\", \"" + map + "\"); }");
+    Grid grid = square(2, 1);
+    ShadingContext context(machine, services_with_maps);
+    if (surface) context.shade({.surface = surface.get()}, grid);
+    return red(grid, component);
+  }
+  WithMaps services_with_maps;
+};
+
+TEST_F(PluginMaps, LookupsOfEachKind) {
+  using ::testing::FloatEq;
+  auto expect = [&](const char* what, size_t component, float at_0) {
+    EXPECT_THAT(ask(what, "map", component), ElementsAre(FloatEq(at_0), FloatEq(at_0 + 1)))
+        << what << component;
+  };
+  // Twice as wide; the middle is half to the right; five channels from 2 on.
+  expect("texture", 0, 1000 + 200 + 60 + 0.5f + 0.25f + 0.02f);
+  expect("texture", 2, 1000 + 200 + 60 + 0.5f + 0.25f + 0.06f);
+  expect("environment", 1, 2000 + 100 + 20 + 0.5f + 0.01f);
+  expect("environmentV", 2, 2000 + 100 + 20 + 0.5f + 0.5f + 0.03f);
+  expect("shadow", 0, 3000 + 100 + 20 + 0.5f + 0.5f);
+  expect("shadowV", 0, 3000 + 100 + 20 + 0.5f + 0.5f);
+  EXPECT_THAT(messages(), IsEmpty());
+  expect("textureV", 0, 1000 + 100 + 30 + 0.5f + 0.5f); // corners in turn
+  EXPECT_THAT(messages(), ElementsAre("1: RxTexture of a plug-in: \"cheese\" has no effect (2)"));
+  EXPECT_THAT(ask("info", "map", 0), Each(640.0f));
+  EXPECT_THAT(ask("info", "map", 1), Each(480.0f));
+  EXPECT_THAT(ask("info", "map", 2), Each(2.0f));
+}
+
+TEST_F(PluginMaps, MapsThatAreMissing) {
+  EXPECT_THAT(ask("texture", "none", 0), Each(-1.0f));
+  EXPECT_THAT(ask("texture", "none", 1), Each(0.0f));
+  EXPECT_THAT(ask("info", "none", 0), Each(-1.0f));
+  EXPECT_THAT(ask("shadow", "", 0), Each(-1.0f));
+  EXPECT_THAT(messages(), ElementsAre("1: RxTexture of a plug-in, \"none\": it is missing (4)"));
+  EXPECT_THAT(shade("Ci = sv_maps(P, \"environment\", \"map\");", 1), Each(-1.0f));
+  EXPECT_THAT(messages().back() + messages().front(), HasSubstr("there are no textures here"));
+}
+
 } // namespace
 } // namespace slvm::test

@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 namespace {
 
@@ -98,9 +99,49 @@ int ask(RslContext* context, int, const RslArg* argv[]) {
   return RxGetRixContext() == static_cast<RixContext*>(context) ? 0 : 4;
 }
 
+// Lookups of each kind: the first three numbers they give, or what they return.
+int maps(RslContext*, int, const RslArg* argv[]) {
+  RslColorIter result(argv[0]);
+  RslPointIter p(argv[1]);
+  RslStringIter what(argv[2]), map(argv[3]);
+  float blur = 0.5f, width = 2;
+  const char* filter = "box";
+  char* tokens[] = {const_cast<char*>("uniform float blur"), const_cast<char*>("cheese")};
+  void* values[] = {&blur, &blur};
+  for (unsigned int i = 0; i < argv[0]->NumValues(); ++i, ++result, ++p) {
+    float got[5] = {-1, -1, -1, -1, -1};
+    const float x = (*p)[0];
+    const float corner[4][3] = {{x, 1, 0}, {x + 1, 1, 0}, {x, 3, 0}, {x + 1, 3, 0}};
+    RxInfoType_t type = RxInfoMatrix;
+    int status = -2, count = 0;
+    if (!strcmp(*what, "texture"))
+      status = RxTexture(*map, 2, 5, x, 0, x + 1, 0, x, 3, x + 1, 3, got, "width", &width, "filter", &filter,
+                         NULL);
+    else if (!strcmp(*what, "textureV"))
+      status = RxTextureV(*map, 0, 1, x, 0, x + 1, 0, x + 1, 3, x, 3, got, 2, tokens, values);
+    else if (!strcmp(*what, "environment"))
+      status = RxEnvironment(*map, 0, 3, corner[0], corner[1], corner[2], corner[3], got, NULL);
+    else if (!strcmp(*what, "environmentV"))
+      status = RxEnvironmentV(*map, 1, 3, corner[0], corner[1], corner[2], corner[3], got, 1, tokens, values);
+    else if (!strcmp(*what, "shadow"))
+      status = RxShadow(*map, 0, corner[0], corner[1], corner[2], corner[3], got, "bias", &blur, NULL);
+    else if (!strcmp(*what, "shadowV"))
+      status = RxShadowV(*map, 0, corner[0], corner[1], corner[2], corner[3], got, 1, tokens, values);
+    else if (!strcmp(*what, "info"))
+      status = RxTextureInfo(*map, "resolution", got, sizeof got, &type, &count);
+    (*result)[0] = status ? static_cast<float>(status) : got[0];
+    (*result)[1] = got[1];
+    (*result)[2] = !strcmp(*what, "texture") ? got[4]
+                   : !strcmp(*what, "info")  ? static_cast<float>(count)
+                                             : got[2];
+  }
+  return 0;
+}
+
 RslFunction functions[] = {{"uniform color sv_visits()", visits, init, cleanup, begin, end},
                            {"void sv_tell()", tell, NULL, NULL},
                            {"color sv_ask(point)", ask, NULL, NULL},
+                           {"color sv_maps(point, uniform string, uniform string)", maps, NULL, NULL},
                            {NULL}};
 
 } // namespace

@@ -7,7 +7,9 @@
 // (char*) of texts that live as long as the renderer.
 #pragma once
 
+#include <stdarg.h>
 #include <stddef.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,6 +28,19 @@ typedef enum {
   RxInfoMatrix
 } RxInfoType_t;
 
+/// A lookup in a map. kind: 0 texture, 1 environment, 2 shadow.
+typedef struct AnemoneLookup {
+  const char* function; /* that asks: for messages */
+  int kind;
+  const char* map;
+  int first_channel, channels;
+  float corners[4][3]; /* s and t, or directions, or points in "current" space */
+  int tokens;
+  char** token;
+  void** value;
+  float* result;
+} AnemoneLookup;
+
 /// The renderer's side. `call` is the one under way; null outside of calls.
 typedef struct AnemonePluginServices {
   int version;
@@ -39,8 +54,12 @@ typedef struct AnemonePluginServices {
                int* count);
   /// A RixContext.
   void* (*context)(void* call);
+  /// 0: done; -1: the map cannot be used (there is a message), or no call is under way.
+  int (*lookup)(void* call, const AnemoneLookup* lookup);
+  int (*texture_info)(void* call, const char* map, const char* name, void* result, int length,
+                      RxInfoType_t* type, int* count);
 } AnemonePluginServices;
-#define ANEMONE_PLUGIN_SERVICES 1
+#define ANEMONE_PLUGIN_SERVICES 2
 
 #define ANEMONE_SHARED __attribute__((weak, visibility("default")))
 #define ANEMONE_INLINE static __inline__ __attribute__((unused))
@@ -53,7 +72,7 @@ ANEMONE_SHARED __thread void* anemone_call = NULL;
 /// Called by the program before and after each of its calls, in the thread of the call.
 ANEMONE_SHARED void anemone_enter(const AnemonePluginServices* services, void* call);
 void anemone_enter(const AnemonePluginServices* services, void* call) {
-  anemone_services = services && services->version == ANEMONE_PLUGIN_SERVICES ? services : NULL;
+  anemone_services = services && services->version >= ANEMONE_PLUGIN_SERVICES ? services : NULL;
   anemone_call = call;
 }
 
@@ -98,6 +117,124 @@ ANEMONE_INLINE int RxOption(const char* name, void* result, int length, RxInfoTy
 ANEMONE_INLINE int RxRendererInfo(const char* name, void* result, int length, RxInfoType_t* type,
                                   int* count) {
   return anemone_services ? anemone_services->query(anemone_call, 2, name, result, length, type, count) : -1;
+}
+
+// Lookups over the region between four corners, which come row by row, as those of a patch. nchannels values
+// from firstchannel on are stored in `result`; of shadows one, 1 in full shadow. Optional arguments are those
+// of texture(): pairs of a token and the address of a float ("blur", "width", "samples", "fill", "bias"...)
+// or of a char* ("filter"), ended by RI_NULL; in the forms that end in V, n of them. 0 when all went well.
+#define ANEMONE_MOST_TOKENS 32
+
+ANEMONE_INLINE int anemone_look_up(AnemoneLookup* lookup, int n, char* tokens[], void* values[]) {
+  lookup->tokens = n;
+  lookup->token = tokens;
+  lookup->value = values;
+  return anemone_services ? anemone_services->lookup(anemone_call, lookup) : -1;
+}
+ANEMONE_INLINE int anemone_look_up_list(AnemoneLookup* lookup, va_list list) {
+  char* tokens[ANEMONE_MOST_TOKENS];
+  void* values[ANEMONE_MOST_TOKENS];
+  int n = 0;
+  char* token;
+  while (n < ANEMONE_MOST_TOKENS && (token = va_arg(list, char*)) != NULL) {
+    tokens[n] = token;
+    values[n++] = va_arg(list, void*);
+  }
+  return anemone_look_up(lookup, n, tokens, values);
+}
+ANEMONE_INLINE void anemone_set_lookup(AnemoneLookup* lookup, const char* function, int kind, const char* map,
+                                       int first, int channels, float* result) {
+  memset(lookup, 0, sizeof *lookup);
+  lookup->function = function;
+  lookup->kind = kind;
+  lookup->map = map;
+  lookup->first_channel = first;
+  lookup->channels = channels;
+  lookup->result = result;
+}
+ANEMONE_INLINE void anemone_set_st(AnemoneLookup* lookup, float s0, float t0, float s1, float t1, float s2,
+                                   float t2, float s3, float t3) {
+  float st[8];
+  int k;
+  st[0] = s0, st[1] = t0, st[2] = s1, st[3] = t1, st[4] = s2, st[5] = t2, st[6] = s3, st[7] = t3;
+  for (k = 0; k < 8; ++k)
+    lookup->corners[k / 2][k % 2] = st[k];
+}
+ANEMONE_INLINE void anemone_set_points(AnemoneLookup* lookup, const float* p0, const float* p1,
+                                       const float* p2, const float* p3) {
+  memcpy(lookup->corners[0], p0, 3 * sizeof(float));
+  memcpy(lookup->corners[1], p1, 3 * sizeof(float));
+  memcpy(lookup->corners[2], p2, 3 * sizeof(float));
+  memcpy(lookup->corners[3], p3, 3 * sizeof(float));
+}
+
+ANEMONE_INLINE int RxTextureV(const char* map, int firstchannel, int nchannels, float s0, float t0, float s1,
+                              float t1, float s2, float t2, float s3, float t3, float* result, int n,
+                              char* tokens[], void* values[]) {
+  AnemoneLookup lookup;
+  anemone_set_lookup(&lookup, "RxTexture", 0, map, firstchannel, nchannels, result);
+  anemone_set_st(&lookup, s0, t0, s1, t1, s2, t2, s3, t3);
+  return anemone_look_up(&lookup, n, tokens, values);
+}
+ANEMONE_INLINE int RxTexture(const char* map, int firstchannel, int nchannels, float s0, float t0, float s1,
+                             float t1, float s2, float t2, float s3, float t3, float* result, ...) {
+  AnemoneLookup lookup;
+  va_list list;
+  int status;
+  anemone_set_lookup(&lookup, "RxTexture", 0, map, firstchannel, nchannels, result);
+  anemone_set_st(&lookup, s0, t0, s1, t1, s2, t2, s3, t3);
+  va_start(list, result);
+  status = anemone_look_up_list(&lookup, list);
+  va_end(list);
+  return status;
+}
+ANEMONE_INLINE int RxEnvironmentV(const char* map, int firstchannel, int nchannels, const float* dir0,
+                                  const float* dir1, const float* dir2, const float* dir3, float* result,
+                                  int n, char* tokens[], void* values[]) {
+  AnemoneLookup lookup;
+  anemone_set_lookup(&lookup, "RxEnvironment", 1, map, firstchannel, nchannels, result);
+  anemone_set_points(&lookup, dir0, dir1, dir2, dir3);
+  return anemone_look_up(&lookup, n, tokens, values);
+}
+ANEMONE_INLINE int RxEnvironment(const char* map, int firstchannel, int nchannels, const float* dir0,
+                                 const float* dir1, const float* dir2, const float* dir3, float* result,
+                                 ...) {
+  AnemoneLookup lookup;
+  va_list list;
+  int status;
+  anemone_set_lookup(&lookup, "RxEnvironment", 1, map, firstchannel, nchannels, result);
+  anemone_set_points(&lookup, dir0, dir1, dir2, dir3);
+  va_start(list, result);
+  status = anemone_look_up_list(&lookup, list);
+  va_end(list);
+  return status;
+}
+ANEMONE_INLINE int RxShadowV(const char* map, int firstchannel, const float* P0, const float* P1,
+                             const float* P2, const float* P3, float* result, int n, char* tokens[],
+                             void* values[]) {
+  AnemoneLookup lookup;
+  anemone_set_lookup(&lookup, "RxShadow", 2, map, firstchannel, 1, result);
+  anemone_set_points(&lookup, P0, P1, P2, P3);
+  return anemone_look_up(&lookup, n, tokens, values);
+}
+ANEMONE_INLINE int RxShadow(const char* map, int firstchannel, const float* P0, const float* P1,
+                            const float* P2, const float* P3, float* result, ...) {
+  AnemoneLookup lookup;
+  va_list list;
+  int status;
+  anemone_set_lookup(&lookup, "RxShadow", 2, map, firstchannel, 1, result);
+  anemone_set_points(&lookup, P0, P1, P2, P3);
+  va_start(list, result);
+  status = anemone_look_up_list(&lookup, list);
+  va_end(list);
+  return status;
+}
+/// What textureinfo() tells: answers as those of RxAttribute.
+ANEMONE_INLINE int RxTextureInfo(const char* map, const char* name, void* result, int length,
+                                 RxInfoType_t* type, int* count) {
+  return anemone_services
+             ? anemone_services->texture_info(anemone_call, map, name, result, length, type, count)
+             : -1;
 }
 
 #ifdef __cplusplus
