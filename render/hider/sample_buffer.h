@@ -110,9 +110,8 @@ private:
   std::vector<const Fragment*> scratch_;
   std::shared_ptr<const SolidTree> solid_; ///< whose grids are being drawn
   SolidHits solid_hits_;
-  std::vector<float> solid_aov_;
+  std::vector<float> solid_aov_, blended_aov_;
   size_t open_ = 0; ///< samples that a surface at any depth would change
-  std::vector<float> blended_aov_;
   bool midpoint_;
   mutable float farthest_ = kInfinity;
   mutable bool farthest_known_ = false;

@@ -25,7 +25,8 @@ void Lowering::note_call(ShadeopId row) {
 }
 
 // Formals are variables of their own: output ones are copied back afterwards, which no RSL program can tell
-// from passing by reference unless it passes one variable twice.
+// from passing by reference unless it passes one variable twice. Lights that ask for an output parameter
+// meanwhile get the formal's value (store_changed).
 slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
   const FunctionDef& f = *e.function;
   size_t declared_from = declared_.size();
@@ -53,9 +54,14 @@ slvm::ir::ValueId Lowering::inline_function(const CallExpr& e) {
     declared_.push_back(result);
     values_[result] = zero(f.result);
   }
+  const size_t lent_from = lent_.size();
+  for (size_t i = 0; i < f.formals.size(); ++i)
+    if (places[i].variable && !places[i].element && !places[i].whole_array)
+      lent_.emplace_back(index_of(*places[i].variable), index_of(*f.formals[i]));
   library_depth_ += e.shadeop != kNoShadeop;
   function_body(*f.body, result);
   library_depth_ -= e.shadeop != kNoShadeop;
+  lent_.resize(lent_from);
   values_.resize(variable_types_.size(), ir::kNoValue);
   ValueId out = result ? values_[result] : ir::kNoValue;
   std::vector<ValueId> stored(f.formals.size(), ir::kNoValue);

@@ -145,6 +145,9 @@ private:
   std::vector<std::pair<size_t, uint32_t>>
       stored_back_;         ///< variable index and slot: stored at the end when changed
   size_t outputs_from_ = 0; ///< stored_back_ from here on are output parameters
+  /// Of functions being inlined, outermost first: a variable that was passed, and the output formal that
+  /// stands for it.
+  std::vector<std::pair<size_t, size_t>> lent_;
   std::unordered_map<const Variable*, uint32_t> arrays_;
   std::unordered_map<const Variable*, uint32_t> param_slots_;
   std::vector<size_t> declared_; ///< variable indices in order of declaration, to take them out of scope

@@ -271,7 +271,10 @@ void Lowering::function_body(const BlockStmt& body, size_t result) {
 void Lowering::store_changed(bool outputs_only) {
   for (size_t i = outputs_only ? outputs_from_ : 0; i < stored_back_.size(); ++i) {
     auto [variable, slot] = stored_back_[i];
-    if (values_[variable] != initial_[variable]) b_.store(slot, values_[variable]);
+    size_t current = variable;
+    for (auto [passed, formal] : lent_)
+      if (passed == current) current = formal;
+    if (values_[current] != initial_[variable]) b_.store(slot, values_[current]);
   }
 }
 

@@ -138,7 +138,7 @@ ScreenWindow -.2 .2 -.2 .2
 Translate -3 0 -6
 Display "out.tif" "tiff" "rgb" "float[4] quantize" [0 0 0 0]
 WorldBegin
-LightSource "distantlight" 1 "from" [0 0 0] "to" [0 0 1]
+LightSource "{}" 1 "from" [0 0 0] "to" [0 0 1]
 Translate 3 0 10
 Surface "scatterskin" "map" "{}" "width" {} "amount" 1 "Ks" 0
 ReadArchive "ball.rib"
@@ -150,22 +150,30 @@ WorldEnd
 TEST_F(ScatterMapFiles, ShadersScatterByThem) {
   file("ball.rib", ball(false));
   bake("skin");
-  auto at = [&](const std::string& map, double width) {
-    file("b.rib", fmt::format(fmt::runtime(kPatch), map, width));
+  // A light as for filtered shadows: it learns that a sample is lit, and its area, as a part of all samples'.
+  file("knowing.sl", "light knowing(point from = 0, to = 0;) {\n  float samples = 0, area = 0;\n"
+                     "  surface(\"__overrideDerivs\", samples);\n  surface(\"__derivA\", area);\n"
+                     "  solar(to - from, 0) Cl = samples * color (1, area, 1);\n}\n");
+  auto at = [&](const std::string& map, double width, const std::string& light = "distantlight",
+                size_t channel = 0) {
+    file("b.rib", fmt::format(fmt::runtime(kPatch), light, map, width));
     const Outcome o = run("b.rib");
     EXPECT_EQ(o.text, "");
     const auto p = pixels("out.tif");
-    return p.empty() ? 0.0f : p[3 * (12 * 24 + 12)];
+    return p.empty() ? 0.0f : p[3 * (12 * 24 + 12) + channel];
   };
   EXPECT_NEAR(at("skin.tif", 0.2), 0.995, 0.03);
   EXPECT_NEAR(at("skin.tif", 0.8), 0.885, 0.03);
+  EXPECT_NEAR(at("skin.tif", 0.2, "knowing"), 0.995, 0.03);
+  const Samples all = samples("skin");
+  EXPECT_NEAR(at("skin.tif", 0.2, "knowing", 1), all.area / static_cast<double>(all.count), 2e-4);
 }
 
 TEST_F(ScatterMapFiles, WhatIsNoScatterMap) {
   file("ball.rib", ball(false));
   bake("skin");
   auto complaint = [&](const std::string& map) {
-    file("b.rib", fmt::format(fmt::runtime(kPatch), map, 0.2));
+    file("b.rib", fmt::format(fmt::runtime(kPatch), "distantlight", map, 0.2));
     return run("b.rib").text;
   };
   auto save = [&](const std::string& name, int width, int channels, OIIO::TypeDesc type, int tile = 0) {
