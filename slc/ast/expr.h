@@ -219,6 +219,9 @@ struct CallExpr : ExprOf<ExprKind::kCall> {
   ShadeopId shadeop = kNoShadeop;
   std::shared_ptr<const slvm::PluginShadeop> plugin;
   const FunctionDef* function = nullptr;
+  /// A plug-in's function that returns an array: the initialiser or the value of an array, which is its first
+  /// argument.
+  bool fills_array = false;
   using ExprOf::ExprOf;
 
   /// Of a call of a row or of a plug-in's function.

@@ -126,6 +126,8 @@ void Lowering::store(const Place& p, ValueId value) {
 slvm::ir::ValueId Lowering::assignment(const AssignExpr& e) {
   Place target = place(*e.target);
   if (target.whole_array) {
+    if (const auto* call = as<CallExpr>(e.value.get())) // which stores to it
+      return value(*call);
     array_assignment(array_of(*target.variable), *e.value);
     return ir::kNoValue;
   }

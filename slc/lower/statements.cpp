@@ -99,6 +99,11 @@ void Lowering::declaration(const Variable& v) {
 
 void Lowering::initialise_array(const Variable& v) {
   uint32_t array = array_of(v);
+  if (const auto* call = v.init ? as<CallExpr>(v.init.get()) : nullptr; call && call->fills_array) {
+    b_.array_clear(array);
+    value(*call);
+    return;
+  }
   if (v.init && !as<ArrayInitExpr>(v.init.get())) { // one value for every element
     ValueId x = value(*v.init);
     for (int i = 0; i < v.array_length; ++i)

@@ -71,6 +71,10 @@ TypeSet Checker::analyse_call(CallExpr& call) {
     report_unknown_function(call);
     return TypeSet::error();
   }
+  if (!call.fills_array && array_function(&call)) {
+    report(diags_, Msg::kArrayResult, call.name_range, call.name);
+    return TypeSet::error();
+  }
   resolution.viable = viable(all, resolution.args);
   if (resolution.viable.empty()) {
     if (!error) report_no_candidate(call, all, resolution.args);
@@ -134,6 +138,7 @@ void Checker::report_no_candidate(const CallExpr& call, const std::vector<Candid
   std::vector<Argument> shown = args;
   if (shown.size() > 1 && scopes_.functions(call.name).empty() && has_channel(call.name))
     shown.erase(shown.begin() + 1);
+  if (call.fills_array) shown.erase(shown.begin());
   slvm::Diagnostic& d =
       fitting.empty()
           ? report(diags_, Msg::kWrongArity, call.name_range, call.name, counted(shown.size(), "argument"))

@@ -136,6 +136,10 @@ private:
   /// Functions of plug-ins; the folders are searched only for names that nothing else has.
   const slvm::PluginSource::Functions& plugin_functions(const std::string& name, bool search);
   void let_store(Candidate& chosen, const CallExpr&);
+  /// The function of a plug-in that this call names, if it returns an array; else null.
+  const slvm::PluginShadeop* array_function(const Expr* call);
+  /// Makes such a call, the value of array `name`, store to it. False: it is none.
+  bool fill_array(Expr* call, const std::string& name);
 
   // call_rules.cpp: what single functions ask for beyond their types
   void check_call_rules(CallExpr&);

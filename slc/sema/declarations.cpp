@@ -139,7 +139,16 @@ void Checker::declare_formal(Variable& v) {
 
 void Checker::declare_local(Variable& v) {
   check_array_length(v);
+  if (const auto* function = array_function(v.init.get()); function && v.array_length == kOpenArray)
+    if (const uint32_t length = function->info().signature.param(0).elements)
+      v.array_length = static_cast<int>(length);
   if (v.array_length == kOpenArray) report(diags_, Msg::kArrayLengthMissing, v.where, v.name);
+  if (v.array_length != kNotArray && fill_array(v.init.get(), v.name)) {
+    declare(v); // its call stores to it
+    analyse(*v.init);
+    finish(v.init, Type::kVoid);
+    return;
+  }
   check_initialiser(v); // before the name is known: it may mention an outer variable of this name
   declare(v);
   if (v.init) spaces_[&v] = space_of(*v.init);

@@ -263,7 +263,9 @@ TypeSet Checker::analyse_assign(AssignExpr& e) {
   sets_[e.target.get()] = target;
   // What is stored.
   bool list = e.value->kind == ExprKind::kArrayInit;
-  if (v && e.target->array_length != kNotArray && !list)
+  const bool filled =
+      v && e.target->array_length != kNotArray && !e.compound && fill_array(e.value.get(), v->name);
+  if (v && e.target->array_length != kNotArray && !list && !filled)
     report(diags_, Msg::kArrayAssigned, e.range, v->name), target = TypeSet::error();
   if (e.compound && !target.is_error()) {
     auto combined = std::make_unique<OperatorExpr>(e.range);
@@ -377,7 +379,11 @@ void Checker::finish_assign(AssignExpr& e) {
                                                             : as<IndexExpr>(e.target.get())->variable;
   finish_place(e.target);
   if (e.compound) usage_.read(*v, e.target->range);
-  if (e.value->kind != ExprKind::kArrayInit) finish_as(e.value, v->type, {Purpose::kAssignment, v->name});
+  const auto* call = as<CallExpr>(e.value.get());
+  if (call && call->fills_array)
+    finish(e.value, Type::kVoid);
+  else if (e.value->kind != ExprKind::kArrayInit)
+    finish_as(e.value, v->type, {Purpose::kAssignment, v->name});
   usage_.written(*v);
   if (e.target->kind == ExprKind::kVariable) spaces_[v] = e.compound ? "" : space_of(*e.value);
 }

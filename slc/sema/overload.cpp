@@ -89,15 +89,17 @@ Param Candidate::param(size_t i) const {
 std::string Candidate::text() const {
   std::string_view name = function ? std::string_view(function->name) : info().name;
   size_t count = function ? function->formals.size() : static_cast<size_t>(signature(*this).param_count);
-  std::string text = fmt::format("{} {}(", slvm::type_name(result()), name);
-  for (size_t i = 0; i < count; ++i) {
+  const bool array = plugin && plugin->name().form == slvm::PluginForm::kGridArray;
+  std::string text = array ? fmt::format("{}[] {}(", slvm::type_name(param(0).type), name)
+                           : fmt::format("{} {}(", slvm::type_name(result()), name);
+  for (size_t i = array; i < count; ++i) {
     // What the language writes in brackets behind the name of a texture.
     bool channel = !function && i == 1 && param(i).name == "channel";
     if (channel) {
       text += "[channel]";
       continue;
     }
-    if (i) text += ", ";
+    if (i > (array ? 1 : 0)) text += ", ";
     text += param_text(param(i));
   }
   if (!function && (signature(*this).variadic() || folds(*this))) text += "...";

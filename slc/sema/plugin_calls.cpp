@@ -28,6 +28,24 @@ const slvm::PluginSource::Functions& Checker::plugin_functions(const std::string
   return known;
 }
 
+const slvm::PluginShadeop* Checker::array_function(const Expr* e) {
+  const auto* call = e ? as<CallExpr>(e) : nullptr;
+  if (!call || !scopes_.functions(call->name).empty() || !slvm::shadeop_overloads(call->name).empty())
+    return nullptr;
+  const auto& known = plugin_functions(call->name, true);
+  return !known.empty() && known[0]->name().form == slvm::PluginForm::kGridArray ? known[0].get() : nullptr;
+}
+
+bool Checker::fill_array(Expr* value, const std::string& name) {
+  if (!array_function(value)) return false;
+  auto& call = *as<CallExpr>(value);
+  auto target = std::make_unique<VariableExpr>(call.name_range);
+  target->name = name;
+  call.args.insert(call.args.begin(), std::move(target));
+  call.fills_array = true;
+  return true;
+}
+
 // A function that is called by point gets the addresses of its arguments. Unless its prototype says which it
 // stores to, those that are variables of just the parameter's type are taken to be stored to.
 void Checker::let_store(Candidate& chosen, const CallExpr& call) {

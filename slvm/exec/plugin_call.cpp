@@ -68,8 +68,12 @@ void call_plugin(const GridCall& call, HostedFunction& function) {
     context.call = &call;
     context.name = function.home->library->name();
     PluginHost::enter(*function.home, &context);
-    error = function.entry.form == PluginForm::kGrid ? call_by_grid(call, function, operands, points)
-                                                     : call_by_point(call, function, operands, points);
+    const std::span<const PluginOperand> all(operands);
+    switch (function.entry.form) {
+    case PluginForm::kPointwise: error = call_by_point(call, function, all, points); break;
+    case PluginForm::kGrid: error = call_by_grid(call, function, all, points); break;
+    case PluginForm::kGridArray: error = call_by_grid(call, function, all.subspan(1), points); break;
+    }
     PluginHost::enter(*function.home, nullptr);
     context.call = nullptr;
   }

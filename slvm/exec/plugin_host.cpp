@@ -183,7 +183,7 @@ std::string PluginHost::prepare_locked(HostedFunction& function) {
   HostedLibrary& home = *function.home;
   if (std::string why = home.broken(); !why.empty()) return why;
   if (function.ready) return "";
-  if (function.entry.form == PluginForm::kGrid) {
+  if (function.entry.form != PluginForm::kPointwise) {
     std::string error;
     if (!home.initialised) {
       error = call_void(home, home.library->library_init(), true);

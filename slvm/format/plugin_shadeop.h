@@ -18,8 +18,9 @@ inline constexpr size_t kMaxPluginParams = 64;
 enum class PluginForm : uint8_t {
   kPointwise, ///< shadeop.h: called for each point
   kGrid,      ///< RslPlugin.h: called once for all points
+  kGridArray, ///< the same, and it returns an array: that is its first parameter here
 };
-inline constexpr int kPluginFormCount = 2;
+inline constexpr int kPluginFormCount = 3;
 
 /// What identifies a function: all that a file keeps.
 struct PluginFunctionName {

@@ -65,7 +65,7 @@ std::string PluginLibrary::read_grid_table() {
     PluginEntry& e = grid_.emplace_back();
     e.function = prototype->name;
     e.signature = prototype->signature();
-    e.form = PluginForm::kGrid;
+    e.form = prototype->array_result ? PluginForm::kGridArray : PluginForm::kGrid;
     e.entry = reinterpret_cast<void*>(row.entry);
     e.init = reinterpret_cast<void*>(row.init);
     e.shutdown = reinterpret_cast<void*>(row.cleanup);
@@ -86,6 +86,7 @@ bool PluginLibrary::read_entry(const PointwiseRow& row, const std::string& funct
   };
   Result<Prototype> prototype = parse_prototype(text);
   if (!prototype) return fail(prototype.error());
+  if (prototype->array_result) return fail("it returns an array, which functions called by point cannot");
   out.function = function;
   out.signature = prototype->signature();
   out.form = PluginForm::kPointwise;

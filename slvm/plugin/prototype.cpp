@@ -77,7 +77,16 @@ private:
     for (; w == "uniform" || w == "varying"; w = word())
       (w == "uniform" ? p.uniform_result : p.varying_result) = true;
     if (!type(w, p.result)) return false;
-    if (take('[')) return fail("it returns an array, which functions of shaders cannot");
+    if (PrototypeParam array{.type = p.result, .uniform = p.uniform_result, .output = true, .name = "result"};
+        !length(array)) {
+      return false;
+    } else if (array.array) {
+      if (p.result == Type::kVoid) return fail("it returns an array of nothing");
+      p.array_result = true;
+      p.params.push_back(std::move(array));
+      p.result = Type::kVoid;
+      p.uniform_result = false;
+    }
     p.name = word();
     if (p.name.empty() || is_digit(p.name[0]))
       return fail(fmt::format("a name is missing where {}", found()));

@@ -1,9 +1,9 @@
 // Prototypes of functions in plug-ins, as strings in their tables: "float sqr_p(point)",
 // "uniform color blend(uniform string mode, color a, output color b, float[3])".
 //
-//   prototype = { "uniform" | "varying" } type name "(" [ "void" | param { "," param } ] ")" [ ";" ]
-//   param     = { "uniform" | "varying" | "output" } type [ "[" [ number ] "]" ] [ name [ "[" [ number ] "]"
-//   ] ]
+//   prototype = { "uniform" | "varying" } type [ "[" [ number ] "]" ] name "(" [ "void" | param { "," param }
+//   ] ")" [ ";" ] param     = { "uniform" | "varying" | "output" } type [ "[" [ number ] "]" ] [ name [ "[" [
+//   number ] "]" ] ]
 //
 // Whatever stands for a name is one: real tables have "float float". The strings come from native code, but
 // tables may be wrong or not end: everything is bounded.
@@ -28,6 +28,7 @@ struct PrototypeParam {
 struct Prototype {
   Type result = Type::kVoid;
   bool uniform_result = false, varying_result = false;
+  bool array_result = false; ///< it returns an array: an output, the first of `params`, and `result` is void
   std::string name;
   std::vector<PrototypeParam> params;
 

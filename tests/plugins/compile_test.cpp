@@ -82,11 +82,19 @@ TEST_F(PluginCompile, WithoutASourceOfPluginsTheyAreRefused) {
   EXPECT_THAT(format_diagnostics(diags, sources), HasSubstr("this program uses no plug-ins"));
 }
 
-TEST_F(PluginCompile, FunctionsThatCannotBeCalledSayWhy) {
-  EXPECT_THAT(complaint("Ci = gr_array(1);"),
-              HasSubstr("\"uniform float[] gr_array(float)\" in RslPublicFunctions: it returns an array, "
-                        "which functions of "
-                        "shaders cannot"));
+TEST_F(PluginCompile, ArraysAreReturnedToArraysOnly) {
+  const std::string expected =
+      "'gr_array' returns an array: it can only initialise an array, or be assigned to one";
+  EXPECT_THAT(complaint("Ci = gr_array(1);"), HasSubstr(expected));
+  EXPECT_THAT(complaint("float x = 0; x = gr_array(1);"), HasSubstr(expected));
+  EXPECT_THAT(complaint("float a[3] = {1}; a += gr_array(1);"),
+              HasSubstr("array 'a' cannot be assigned as a whole"));
+  EXPECT_THAT(complaint("float a[3] = gr_array(1, 2);"),
+              AllOf(HasSubstr("no 'gr_array' takes 2 arguments"),
+                    HasSubstr("candidate: float[] gr_array(uniform float a2), of the plug-in ")));
+  EXPECT_THAT(complaint("color a[3] = gr_array(1);"), HasSubstr("no 'gr_array' takes (float)"));
+  EXPECT_THAT(complaint("color a[3] = gr_colors(1);"), HasSubstr("no 'gr_colors' takes (float)"));
+  EXPECT_THAT(complaint("float a[] = gr_array(1);"), HasSubstr("length"));
 }
 
 TEST_F(PluginCompile, ThereAreBoundsToHowManyAreCalled) {

@@ -138,6 +138,27 @@ int offset(RslContext* context, int, const RslArg* argv[]) {
   return 0;
 }
 
+// 0, 1, 4... so many.
+int squares(RslContext*, int, const RslArg* argv[]) {
+  RslFloatIter count(argv[1]);
+  argv[0]->GetResizer()->Resize(static_cast<int>(*count));
+  RslFloatArrayIter a(argv[0]);
+  for (int k = 0; k < a.GetLength(); ++k)
+    a[k] = static_cast<float>(k * k);
+  return 0;
+}
+// A colour and its double.
+int colors(RslContext*, int argc, const RslArg* argv[]) {
+  RslColorArrayIter a(argv[0]);
+  RslColorIter c(argv[1]);
+  for (unsigned int i = 0; i < RslArg::NumValues(argc, argv); ++i, ++a, ++c)
+    for (int k = 0; k < 3; ++k) {
+      a[0][k] = (*c)[k];
+      a[1][k] = 2 * (*c)[k];
+    }
+  return 0;
+}
+
 int fails(RslContext*, int, const RslArg*[]) {
   return 7;
 }
@@ -166,7 +187,8 @@ RslFunction functions[] = {
     {"float gr_offset(float)", offset, NULL, NULL},
     {"float gr_fails(float)", fails, NULL, NULL},
     {"float gr_throws(float)", throws, NULL, NULL},
-    {"uniform float[] gr_array(float)", fails, NULL, NULL}, // cannot be called
+    {"uniform float[] gr_array(uniform float)", squares, NULL, NULL},
+    {"color[2] gr_colors(color c)", colors, NULL, NULL},
     NULL};
 
 } // namespace

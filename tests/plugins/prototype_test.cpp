@@ -44,6 +44,11 @@ TEST(Prototype, EveryPluginSignatureIsOneOfTheTable) {
             "uniform color(uniform string mode, inout float[3] x, inout point a3)");
 }
 
+TEST(Prototype, AReturnedArrayIsTheFirstOutput) {
+  EXPECT_EQ(signature_of("float[3] f()"), "f: void(inout float[3] result)");
+  EXPECT_EQ(signature_of("uniform color[] f(float x)"), "f: void(inout uniform color[] result, float x)");
+}
+
 TEST(Prototype, Mistakes) {
   EXPECT_EQ(signature_of(""), "a type is missing where it ends");
   EXPECT_EQ(signature_of("quaternion f()"), "'quaternion' is no type of the shading language");
@@ -58,7 +63,7 @@ TEST(Prototype, Mistakes) {
   EXPECT_EQ(signature_of("float f(float[9999999])"), "an array has more than 1048576 elements");
   EXPECT_EQ(signature_of("float f(float) x"), "'x' follows the prototype");
   EXPECT_EQ(signature_of("uniform varying float f()"), "its result is both uniform and varying");
-  EXPECT_EQ(signature_of("float[3] f()"), "it returns an array, which functions of shaders cannot");
+  EXPECT_EQ(signature_of("void[3] f()"), "it returns an array of nothing");
   EXPECT_EQ(signature_of("float f(float, ...)"),
             "it takes any number of arguments ('...'), which calls from shaders cannot give it");
 }

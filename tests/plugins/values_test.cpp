@@ -99,6 +99,29 @@ INSTANTIATE_TEST_SUITE_P(Forms, PluginValues, ::testing::Values("pt_", "gr_"), [
   return std::string(form.param) == "pt_" ? "ByPoint" : "ByGrid";
 });
 
+struct ReturnedArrays : ::testing::Test, Plugged {};
+
+TEST_F(ReturnedArrays, InitialiseArraysAndAreAssigned) {
+  for (int level : {0, 1, 2}) {
+    EXPECT_THAT(shade("float a[4] = gr_array(3); Ci = color(a[1], a[2], a[3]);", 2, 0, level), Each(1.0f));
+    EXPECT_THAT(shade("float a[4] = gr_array(3); Ci = color(a[1], a[2], a[3]);", 2, 1, level), Each(4.0f));
+    EXPECT_THAT(
+        shade("float a[4] = {7, 7, 7, 7}; a = gr_array(3); Ci = color(a[0], a[2], a[3]);", 2, 2, level),
+        Each(7.0f)); // what is not returned stays
+    EXPECT_THAT(shade("color c[] = gr_colors(color P); Ci = c[1];", 3, 0, level), ElementsAre(0, 1, 2));
+    EXPECT_THAT(shade("color c[2]; float x = xcomp(P); if (x > .3) c = gr_colors(color(x, 1, 1)); Ci = c[1];",
+                      3, 0, level),
+                ElementsAre(0, 1, 2));
+  }
+  EXPECT_THAT(messages(), IsEmpty());
+}
+
+TEST_F(ReturnedArrays, HoldNoMoreThanTheVariable) {
+  EXPECT_THAT(shade("float a[2] = gr_array(5); Ci = a[1];", 1), ElementsAre(1));
+  EXPECT_THAT(messages(), ElementsAre(::testing::HasSubstr(
+                              "it wants 5 elements in 'result', which holds 2: declare a longer array")));
+}
+
 struct PointValues : ::testing::Test, Plugged {};
 
 TEST_F(PointValues, OverloadsByTypeOfTheArgument) {
