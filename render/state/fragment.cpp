@@ -7,12 +7,18 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
 namespace render {
 
 namespace {
+
+// Each face has all others around it that share a vertex: these bounds keep the work in proportion to the
+// mesh.
+constexpr size_t kMostFacesAtVertex = 256;
+constexpr int kMostCorners = 256;
 
 /// A tag of the request with its numbers.
 struct Tag {
@@ -29,7 +35,12 @@ struct Mesh {
   std::vector<std::vector<int>> faces_at; ///< each vertex
   std::vector<bool> border;               ///< vertices
   std::vector<bool> hole;                 ///< faces
-  std::vector<Tag> tags;
+  std::vector<Tag> tags;                  ///< but for creases and corners
+  struct Sharp {
+    int to; ///< the other end of a crease; of corners the vertex itself
+    float sharpness;
+  };
+  std::vector<std::vector<Sharp>> sharp_at; ///< each vertex; empty: there are none
   bool to_the_border = false;
 
   std::span<const int> corners(int face) const {
@@ -37,6 +48,16 @@ struct Mesh {
                             static_cast<size_t>(nvertices[static_cast<size_t>(face)]));
   }
 };
+
+/// Creases and corners, each at its first vertex. Those that are wrong are said so when the mesh is drawn.
+void keep_sharp(const Tag& tag, Mesh& mesh) {
+  mesh.sharp_at.resize(mesh.P.size());
+  const size_t edge = tag.name == "crease" ? 1 : 0;
+  for (size_t i = 0; i + edge < tag.ints.size() && !tag.floats.empty(); ++i)
+    if (const int from = tag.ints[i]; from >= 0 && static_cast<size_t>(from) < mesh.P.size())
+      mesh.sharp_at[static_cast<size_t>(from)].push_back(
+          {tag.ints[i + edge], tag.floats[std::min(i, tag.floats.size() - 1)]});
+}
 
 std::string read_tags(const RequestCall& call, Mesh& mesh) {
   if (!call.has(3)) return {};
@@ -50,13 +71,16 @@ std::string read_tags(const RequestCall& call, Mesh& mesh) {
     const auto ni = static_cast<size_t>(nargs[2 * i]), nf = static_cast<size_t>(nargs[2 * i + 1]);
     if (next_int + ni > ints.size() || next_float + nf > floats.size())
       return fmt::format("there are fewer numbers than 'nargs' says for \"{}\"", names[i]);
-    mesh.tags.push_back({names[i], ints.subspan(next_int, ni), floats.subspan(next_float, nf)});
+    const Tag tag{names[i], ints.subspan(next_int, ni), floats.subspan(next_float, nf)};
     next_int += ni;
     next_float += nf;
-    if (names[i] == "interpolateboundary") mesh.to_the_border = ni == 0 || mesh.tags.back().ints[0] != 0;
-    for (size_t k = 0; names[i] == "hole" && k < ni; ++k)
-      if (const int face = mesh.tags.back().ints[k];
-          face >= 0 && static_cast<size_t>(face) < mesh.hole.size())
+    if (tag.name == "crease" || tag.name == "corner")
+      keep_sharp(tag, mesh);
+    else
+      mesh.tags.push_back(tag);
+    if (tag.name == "interpolateboundary") mesh.to_the_border = tag.ints.empty() || tag.ints[0] != 0;
+    for (size_t k = 0; tag.name == "hole" && k < ni; ++k)
+      if (const int face = tag.ints[k]; face >= 0 && static_cast<size_t>(face) < mesh.hole.size())
         mesh.hole[static_cast<size_t>(face)] = true;
   }
   return {};
@@ -73,6 +97,7 @@ std::string read_mesh(const RequestCall& call, Mesh& mesh) {
   size_t corners = 0;
   for (int n : mesh.nvertices) {
     if (n < 3) return fmt::format("a face has at least 3 vertices, found {}", n);
+    if (n > kMostCorners) return fmt::format("a face has more than {} vertices", kMostCorners);
     mesh.first.push_back(corners);
     corners += static_cast<size_t>(n);
   }
@@ -92,6 +117,9 @@ std::string read_mesh(const RequestCall& call, Mesh& mesh) {
       ++edges[std::minmax(a, b)];
     }
   }
+  for (const auto& faces : mesh.faces_at)
+    if (faces.size() > kMostFacesAtVertex)
+      return fmt::format("more than {} faces meet at a vertex", kMostFacesAtVertex);
   for (const auto& [edge, count] : edges)
     if (count != 2)
       mesh.border[static_cast<size_t>(edge.first)] = mesh.border[static_cast<size_t>(edge.second)] = true;
@@ -141,10 +169,14 @@ struct Patch {
 
 Patch patch_of(const Mesh& mesh, int face) {
   Patch patch{{face}, {}, {}};
-  for (int vertex : mesh.corners(face))
-    for (int f : mesh.faces_at[static_cast<size_t>(vertex)])
-      if (std::find(patch.faces.begin(), patch.faces.end(), f) == patch.faces.end()) patch.faces.push_back(f);
-  std::sort(patch.faces.begin() + 1, patch.faces.end());
+  std::vector<int> around;
+  for (int vertex : mesh.corners(face)) {
+    const auto& there = mesh.faces_at[static_cast<size_t>(vertex)];
+    around.insert(around.end(), there.begin(), there.end());
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  std::remove_copy(around.begin(), around.end(), std::back_inserter(patch.faces), face);
   for (int f : patch.faces)
     for (int vertex : mesh.corners(f))
       if (patch.renumber.emplace(vertex, static_cast<int>(patch.vertices.size())).second)
@@ -192,12 +224,12 @@ public:
     for (size_t i = 0; i < around.size(); ++i)
       around[i] = static_cast<int>(i) + 1;
     if (!around.empty()) add("hole", around, {});
+    for (int vertex : patch.vertices)
+      if (!mesh.sharp_at.empty())
+        for (const Mesh::Sharp& sharp : mesh.sharp_at[static_cast<size_t>(vertex)])
+          add_sharp(vertex, sharp);
     for (const Tag& tag : mesh.tags)
-      if (tag.name == "crease")
-        crease(tag);
-      else if (tag.name == "corner")
-        corner(tag);
-      else if (tag.name != "hole")
+      if (tag.name != "hole")
         add(tag.name, {tag.ints.begin(), tag.ints.end()}, {tag.floats.begin(), tag.floats.end()});
   }
   void store(RequestCall& call) {
@@ -216,19 +248,14 @@ private:
     ints_.insert(ints_.end(), ints.begin(), ints.end());
     floats_.insert(floats_.end(), floats.begin(), floats.end());
   }
-  std::optional<int> here(int vertex) const {
-    auto it = patch_.renumber.find(vertex);
-    return it == patch_.renumber.end() ? std::optional<int>() : it->second;
-  }
-  void crease(const Tag& tag) {
-    for (size_t i = 0; i + 1 < tag.ints.size(); ++i)
-      if (auto a = here(tag.ints[i]), b = here(tag.ints[i + 1]); a && b && !tag.floats.empty())
-        add("crease", {*a, *b}, {tag.floats[std::min(i, tag.floats.size() - 1)]});
-  }
-  void corner(const Tag& tag) {
-    for (size_t i = 0; i < tag.ints.size(); ++i)
-      if (auto a = here(tag.ints[i]); a && !tag.floats.empty())
-        add("corner", {*a}, {tag.floats[std::min(i, tag.floats.size() - 1)]});
+  void add_sharp(int vertex, const Mesh::Sharp& sharp) {
+    auto to = patch_.renumber.find(sharp.to);
+    if (to == patch_.renumber.end()) return;
+    const int from = patch_.renumber.at(vertex);
+    if (sharp.to == vertex)
+      add("corner", {from}, {sharp.sharpness});
+    else
+      add("crease", {from, to->second}, {sharp.sharpness});
   }
 
   const Patch& patch_;
