@@ -305,6 +305,30 @@ TEST_F(RendererTest, textures_are_found_on_their_search_path) {
   EXPECT_EQ(value(3, 3, 0), 0);
 }
 
+TEST_F(RendererTest, lookups_at_places_that_are_not_numbers_are_black) {
+  shaders_["nowhere"] = "surface nowhere(string map = \"\"; float zero = 0) {"
+                        "  vector R = (zero / zero, 1, 0); Oi = 1;"
+                        "  Ci = color texture(map, xcomp(R), t, \"blur\", .1) + color environment(map, R, "
+                        "\"blur\", .1) + .25; }";
+  EXPECT_EQ(render("Option \"searchpath\" \"texture\" [\"" TEXTURE_FOLDER "\"]\n"
+                   "WorldBegin Surface \"nowhere\" \"map\" \"ramp.exr\"" +
+                   kSheet + "WorldEnd"),
+            "");
+  EXPECT_EQ(value(8, 8, 0), 0.25f);
+}
+
+TEST_F(RendererTest, what_changes_along_one_line_only_can_be_blurred) {
+  shaders_["line"] = "surface line(string map = \"\";) {"
+                     "  Ci = (color texture(map, s * t, s * t, \"blur\", .1) + color environment(map, "
+                     "vector(s, .1, 1), \"blur\", .1)"
+                     "     + color environment(map, vector(s - .5, t - .5, 0), \"blur\", .1)) / 3; Oi = 1; }";
+  EXPECT_EQ(render("Option \"searchpath\" \"texture\" [\"" TEXTURE_FOLDER "\"]\n"
+                   "WorldBegin Surface \"line\" \"map\" \"ramp.exr\"" +
+                   kSheet + "WorldEnd"),
+            "");
+  EXPECT_GT(value(8, 8, 0), 0.1f);
+}
+
 TEST_F(RendererTest, shaders_know_time_and_motion) {
   shaders_["when"] = "surface when() { Ci = color(time, dtime, xcomp(dPdtime)); Oi = 1; }";
   EXPECT_EQ(
