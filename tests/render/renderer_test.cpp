@@ -94,6 +94,13 @@ TEST_F(RendererTest, parameters_reach_the_shader) {
   EXPECT_FLOAT_EQ(value(3, 3, 3), 1);
 }
 
+TEST_F(RendererTest, a_text_reaches_a_string_parameter_whose_name_is_predeclared_otherwise) {
+  shaders_["named"] =
+      "surface named(string background = \"\") { Ci = background == \"b.tif\" ? 1 : 0; Oi = 1; }";
+  EXPECT_EQ(render("WorldBegin Surface \"named\" \"background\" \"b.tif\"" + kSheet + "WorldEnd"), "");
+  EXPECT_EQ(value(8, 8, 0), 1);
+}
+
 TEST_F(RendererTest, primitive_variables_override_parameters) {
   shaders_["show"] = "surface show(varying float k = 1) { Ci = k; Oi = 1; }";
   EXPECT_EQ(

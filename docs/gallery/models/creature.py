@@ -38,18 +38,18 @@ def creature():
     b.ellipsoid(0.56, 0.9, 0, 0.17, 0.15, 0.15)       # head
     b.ellipsoid(0.7, 0.84, 0, 0.11, 0.075, 0.09)      # snout
     for side in (-1, 1):
-        b.rod((0.5, 0.98, 0.08 * side), (0.45, 1.14, 0.15 * side), 0.045) # horns
-        b.ellipsoid(0.62, 0.99, 0.085 * side, 0.045, 0.045, 0.045)        # eyes
+        b.rod((0.5, 0.98, 0.08 * side), (0.45, 1.14, 0.15 * side), 0.052) # horns
+        b.ellipsoid(0.62, 0.99, 0.085 * side, 0.055, 0.055, 0.055)        # eyes
         b.rod((0.22, 0.4, 0.14 * side), (0.27, 0.08, 0.18 * side), 0.075) # legs
         b.rod((-0.26, 0.4, 0.15 * side), (-0.3, 0.08, 0.19 * side), 0.085)
         b.ellipsoid(0.31, 0.055, 0.185 * side, 0.1, 0.055, 0.075)         # feet
         b.ellipsoid(-0.26, 0.055, 0.195 * side, 0.11, 0.06, 0.08)
     tail = [(-0.38, 0.46, 0), (-0.6, 0.3, 0.06), (-0.8, 0.16, 0.2), (-0.95, 0.1, 0.4), (-0.98, 0.1, 0.6)]
     for i, (p, q) in enumerate(zip(tail, tail[1:])):
-        b.rod(p, q, 0.1 - 0.018 * i)
+        b.rod(p, q, 0.1 - 0.013 * i)
     for i in range(6): # plates along the back
         x = 0.3 - 0.13 * i
-        b.ellipsoid(x, 0.76 - 0.35 * (x + 0.05) ** 2 - (0.02 if i in (0, 5) else 0), 0, 0.06, 0.085, 0.042, 8)
+        b.ellipsoid(x, 0.76 - 0.35 * (x + 0.05) ** 2 - (0.02 if i in (0, 5) else 0), 0, 0.07, 0.09, 0.055, 8)
     return b.rib()
 
 
