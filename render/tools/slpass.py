@@ -358,7 +358,8 @@ class Runner:
             self.say(f"{scene.name}: {wanted.name}: " + " ".join(map(str, command)))
             wanted.record["done"] = True
             return
-        environment = os.environ | {"PATH": f"{self.arguments.bin}{os.pathsep}{os.environ.get('PATH', '')}"}
+        environment = os.environ | {"PATH": f"{self.arguments.bin}{os.pathsep}{os.environ.get('PATH', '')}",
+                                    "PYTHONDONTWRITEBYTECODE": "1"} # nothing is written beside the sources
         begin = time.monotonic()
         result = subprocess.run(command, cwd=scene.work, env=environment, stdin=subprocess.DEVNULL, capture_output=True,
                                 text=True, errors="replace", check=False)

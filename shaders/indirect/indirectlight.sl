@@ -9,7 +9,7 @@ indirectlight(uniform float intensity = 1;
               output float __nonspecular = 1;
               )
 {
-  normal Nf = faceforward(normalize(N), I);
+  normal Nf = shadingnormal(N);
   illuminate(Ps + Nf) {
     Cl = intensity * filter * indirectdiffuse(Ps, Nf, samples, "maxdist", maxdist, "environmentmap", envmap, "environmentspace", envspace);
   }

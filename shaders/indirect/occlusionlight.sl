@@ -9,7 +9,7 @@ occlusionlight(uniform float intensity = 1;
                output float __nonspecular = 1;
                )
 {
-  normal Nf = faceforward(normalize(N), I);
+  normal Nf = shadingnormal(N);
   /* Straight along the normal: diffuse() then counts it in full. */
   illuminate(Ps + Nf) {
     Cl = intensity * lightcolor * (1 - occlusion(Ps, Nf, samples, "maxdist", maxdist, "coneangle", coneangle, "subset", subset));

@@ -1,6 +1,6 @@
 // The scenes of docs/gallery, at a fraction of their size, by the pass runner: every pass runs, and the
 // pictures are the ones that were looked at.
-#include "tests/golden_picture.h"
+#include "tests/render/golden_picture.h"
 #include "tests/temp_folder.h"
 
 #include <fmt/format.h>
@@ -44,9 +44,9 @@ TEST_P(Gallery, scene) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, Gallery,
-    ::testing::Values(Small{"bleeding", 0.2, "indirectdiffuse256.exr"}, Small{"cards", 0.25, "traverse.exr"},
-                      Small{"coral", 0.15, "coral.exr"}, Small{"cornell", 0.2, "bounce.exr"},
-                      Small{"environment", 0.2, "occlusion_each.exr"},
+    ::testing::Values(Small{"bag", 0.2, "passes.exr"}, Small{"bleeding", 0.2, "indirectdiffuse256.exr"},
+                      Small{"cards", 0.25, "traverse.exr"}, Small{"coral", 0.15, "coral.exr"},
+                      Small{"cornell", 0.2, "bounce.exr"}, Small{"environment", 0.2, "occlusion_each.exr"},
                       Small{"gumdrop", 0.25, "f0.6_0.14.exr"}, Small{"guts", 0.2, "fish.exr"},
                       Small{"labels", 0.25, "labels.exr"}, Small{"occlusion", 0.2, "adaptive.exr"},
                       Small{"occlusionrange", 0.3, "0.7854_0.5.exr"},

@@ -1,5 +1,5 @@
 // Pictures compared with the ones in tests/render/golden.
-#include "tests/golden_picture.h"
+#include "tests/render/golden_picture.h"
 #include "tests/temp_folder.h"
 
 #include <fmt/format.h>
