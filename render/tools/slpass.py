@@ -491,12 +491,14 @@ def parse_arguments():
                                      "2 wrong usage, 3 a pass file is missing.")
     parser.add_argument("files", nargs="*", default=["passes.toml"], help="pass files, or folders with a passes.toml (passes.toml)")
     parser.add_argument("-o", "--out", default="passes", metavar="FOLDER", help="a folder for each scene is made in it (passes)")
-    parser.add_argument("-j", "--jobs", type=int, default=0, metavar="N", help="passes at once; 1 for times that can be compared (all processors)")
+    parser.add_argument("-j", "--jobs", type=int, default=0, metavar="N",
+                        help="passes at once; 1 for times that can be compared (all processors)")
     parser.add_argument("--scale", type=float, default=1, metavar="X", help="sizes of pictures are multiplied by it")
     parser.add_argument("-f", "--force", action="store_true", help="make everything again")
     parser.add_argument("-n", "--dry-run", action="store_true", help="print the commands that would run, as far as they are known")
     parser.add_argument("--page", metavar="FILE", help="write an HTML page with pictures and times")
-    parser.add_argument("--bin", default=os.path.dirname(os.path.realpath(__file__)), metavar="FOLDER", help="where Anemone's programs are (beside slpass)")
+    parser.add_argument("--bin", default=os.path.dirname(os.path.realpath(__file__)), metavar="FOLDER",
+                        help="where Anemone's programs are (beside slpass)")
     parser.add_argument("--version", action="version", version=VERSION)
     given = parser.parse_args()
     if given.jobs < 0 or not 0 < given.scale <= 16:
