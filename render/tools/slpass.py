@@ -24,7 +24,7 @@ import tomllib
 
 VERSION = "slpass 0.1.0 (Anemone)"
 STATE = ".slpass.json"
-TOP_KEYS = {"title": str, "picture": str, "page": str, "size": list, "shaders": list, "archives": list, "pass": list}
+TOP_KEYS = {"title": str, "picture": str, "size": list, "shaders": list, "archives": list, "pass": list}
 PASS_KEYS = {"name": str, "rib": (str, list), "text": str, "run": list, "in": list, "out": list, "size": list, "each": dict}
 
 

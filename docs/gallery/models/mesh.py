@@ -27,22 +27,14 @@ def unit(a):
     return scaled(a, 1 / length) if length else (0.0, 1.0, 0.0)
 
 
-def turned(v, axis, angle):
-    """v about the unit axis, angle in radians."""
-    c, s = math.cos(angle), math.sin(angle)
-    return add(add(scaled(v, c), scaled(cross(axis, v), s)), scaled(axis, dot(axis, v) * (1 - c)))
-
-
 class Mesh:
     """Points and faces. A face that is extruded goes away: its walls and its moved copy take its place."""
 
     def __init__(self):
-        self.points, self.faces, self.variables = [], [], {}
+        self.points, self.faces = [], []
 
-    def point(self, p, **variables):
+    def point(self, p):
         self.points.append(tuple(p))
-        for name, value in variables.items():
-            self.variables.setdefault(name, {})[len(self.points) - 1] = value
         return len(self.points) - 1
 
     def face(self, corners):
@@ -56,10 +48,6 @@ class Mesh:
     def normal(self, f):
         a, b, c = (self.points[i] for i in self.faces[f][:3])
         return unit(cross(sub(b, a), sub(c, a)))
-
-    def radius(self, f):
-        m = self.centre(f)
-        return sum(math.sqrt(dot(d, d)) for d in (sub(self.points[c], m) for c in self.faces[f])) / len(self.faces[f])
 
     def extrude(self, f, along, radius):
         """Moves face f along a vector, turns it square to it and gives it a radius. Returns the faces of the walls."""
@@ -78,8 +66,8 @@ class Mesh:
         self.faces[f] = new
         return walls
 
-    def ring(self, points, **variables):
-        return [self.point(p, **variables) for p in points]
+    def ring(self, points):
+        return [self.point(p) for p in points]
 
     def shell(self, rings, close=True):
         """Quadrilaterals between rings of as many points; the first and the last are closed by a face each."""
@@ -104,8 +92,4 @@ class Mesh:
         counts, corners = numbers(len(f) for f in self.faces), numbers(c for f in self.faces for c in f)
         text = f"PointsPolygons {counts} {corners}" if scheme == "polygons" else \
             f"SubdivisionMesh \"{scheme}\" {counts} {corners} [ \"interpolateboundary\" ] [ 0 0 ] [ ] [ ]"
-        text += " \"P\" " + numbers(x for p in self.points for x in p)
-        for name, values in self.variables.items():
-            kind = "varying" if scheme == "polygons" else "vertex"
-            text += f" \"{kind} float {name}\" " + numbers(values.get(i, 0) for i in range(len(self.points)))
-        return text + "\n"
+        return text + " \"P\" " + numbers(x for p in self.points for x in p) + "\n"
