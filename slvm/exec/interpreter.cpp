@@ -246,8 +246,9 @@ bool ShaderRun::take_round(uint32_t pc, size_t lanes) {
 
 namespace {
 
-/// Whether the rest of a region is left out, since no lane is on. Strips that derivatives read go on: other lanes look at
-/// values of theirs. But not in a loop, which all lanes have left: another round must not change what it leaves behind.
+/// Whether the rest of a region is left out, since no lane is on. Strips that derivatives read go on: other
+/// lanes look at values of theirs. But not in a loop, which all lanes have left: another round must not
+/// change what it leaves behind.
 bool stops(const Frame& f, const MaskStack& m) {
   return !m.any() && (!f.runs_idle || m.within_loop());
 }

@@ -237,7 +237,7 @@ void compare_with_grid() {
       for (int k = 0; k < 256; ++k) {
         task.rect = {static_cast<float>(k % 16) / 16, static_cast<float>(k % 16 + 1) / 16,
                      static_cast<float>(k / 16) / 16, static_cast<float>(k / 16 + 1) / 16};
-        render::dice(s.scene().primitives[0], task, static_cast<uint64_t>(k), dice, grid);
+        render::dice(std::span(s.scene().primitives).first(1), task, static_cast<uint64_t>(k), dice, grid);
         context.shade(set, grid);
       }
     });

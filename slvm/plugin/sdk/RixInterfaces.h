@@ -96,5 +96,7 @@ class RixGrid : public RixInterface {
 public:
   /// The numbers of points along u and along v: point (i, j) has the number j * columns + i. False, and both
   /// 0: the points are hits of rays, which have no neighbours.
-  virtual bool Size(int* columns, int* rows) const = 0;
+  /// Several pieces of surfaces may lie one above the other: only rows of one piece are neighbours, the first
+  /// `piece_rows` rows, the next, and so on (of one piece these are all rows).
+  virtual bool Size(int* columns, int* rows, int* piece_rows) const = 0;
 };
