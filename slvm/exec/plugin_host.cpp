@@ -63,11 +63,12 @@ const RslRunFlag* PluginContext::GetRunFlags(unsigned int* length) const {
   return flags.data();
 }
 
-bool PluginGrid::Size(int* columns, int* rows) const {
+bool PluginGrid::Size(int* columns, int* rows, int* piece_rows) const {
   const Grid& grid = *call->run.state.grid;
-  const bool neighbours = grid.lattice == Lattice::kRows;
+  const bool neighbours = grid.lattice != Lattice::kHits;
   *columns = neighbours ? grid.nu() : 0;
   *rows = neighbours ? grid.nv() : 0;
+  *piece_rows = neighbours ? grid.rows_of_piece() : 0;
   return neighbours;
 }
 

@@ -53,7 +53,7 @@ struct HostedFunction {
 /// The grid of a call.
 class PluginGrid : public RixGrid {
 public:
-  bool Size(int* columns, int* rows) const override;
+  bool Size(int* columns, int* rows, int* piece_rows) const override;
   const GridCall* call = nullptr;
 };
 

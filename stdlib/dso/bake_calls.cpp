@@ -103,17 +103,19 @@ std::vector<Vec3> values_of(const RslArg* arg, size_t points) {
 struct GridOfCall {
   std::string file;
   size_t nu = 0, nv = 0;
+  size_t piece = 1;                   ///< rows that are neighbours of each other
   std::vector<Vec3> position, normal; ///< positions that are not finite: no micropolygon has this corner
 };
 
 /// False: there is nothing to be baked.
 bool grid_of_call(const RslContext& context, const RslArg* argv[], const char* function, GridOfCall& out) {
   auto* grid = static_cast<RixGrid*>(context.GetRixInterface(k_RixGrid));
-  int columns = 0, rows = 0;
+  int columns = 0, rows = 0, piece_rows = 0;
   // What rays hit has no micropolygons, and is not to be baked anyway.
-  if (!grid || !grid->Size(&columns, &rows)) return false;
+  if (!grid || !grid->Size(&columns, &rows, &piece_rows)) return false;
   out.nu = static_cast<size_t>(columns);
   out.nv = static_cast<size_t>(rows);
+  out.piece = static_cast<size_t>(piece_rows);
   RslStringIter file(argv[1]);
   out.file = *file;
   if (out.file.empty()) {
@@ -139,7 +141,14 @@ int bake_points(RslContext* context, int argc, const RslArg* argv[]) {
   const std::vector<Vec3> irradiance =
       argc > 5 ? values_of(argv[5], grid.position.size()) : std::vector<Vec3>();
   PointCloud fresh;
-  append_grid(fresh, {grid.nu, grid.nv, grid.position, grid.normal, irradiance, albedo});
+  for (size_t row = 0; row < grid.nv; row += grid.piece) {
+    auto of_piece = [&](const std::vector<Vec3>& values) {
+      return values.empty() ? std::span<const Vec3>()
+                            : std::span(values).subspan(row * grid.nu, grid.piece * grid.nu);
+    };
+    append_grid(fresh, {grid.nu, grid.piece, of_piece(grid.position), of_piece(grid.normal),
+                        of_piece(irradiance), of_piece(albedo)});
+  }
   if (std::string problem = check(fresh); !problem.empty()) {
     complain(*context, fmt::format("bakepoints() to {}: {}", grid.file, problem));
     return 0;
@@ -169,7 +178,7 @@ int bake_mesh(RslContext* context, int, const RslArg* argv[]) {
     fresh.push_back(outward ? Triangle{p[0], p[1], p[2]} : Triangle{p[0], p[2], p[1]});
   };
   for (size_t v = 0; v + 1 < grid.nv; ++v)
-    for (size_t u = 0; u + 1 < grid.nu; ++u) {
+    for (size_t u = 0; u + 1 < grid.nu && (v + 1) % grid.piece != 0; ++u) {
       const size_t a = v * grid.nu + u;
       add(a, a + 1, a + grid.nu + 1);
       add(a, a + grid.nu + 1, a + grid.nu);

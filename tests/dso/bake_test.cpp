@@ -56,6 +56,19 @@ TEST_F(BakePoints, HitsOfRaysHaveNoMicropolygons) {
   EXPECT_FALSE(folder_.has("a.ply"));
 }
 
+TEST_F(BakePoints, PiecesOfOneGridHaveNoMicropolygonsBetweenThem) {
+  auto surface = bind("surface s() { bakepoints(" + quoted("a.ply") + ", P, N, 1); bakemesh(" +
+                      quoted("m.ply") + ", P, N); }");
+  slvm::Grid grid = slvm::test::square(4, 6);
+  grid.lattice = slvm::Lattice::kPieces;
+  grid.piece_rows = 2;
+  slvm::ShadingContext(machine, services).shade({.surface = surface.get()}, grid);
+  machine.end_plugins();
+  EXPECT_THAT(messages(), IsEmpty());
+  EXPECT_EQ(cloud("a.ply").size(), 9u); // of 15
+  EXPECT_EQ(read_mesh(path("m.ply"))->triangles.size(), 18u);
+}
+
 TEST_F(BakePoints, TheOrderDoesNotDependOnThreads) {
   auto bake = [&](const std::string& name, bool reversed) {
     std::vector<std::unique_ptr<slvm::Instance>> surfaces;

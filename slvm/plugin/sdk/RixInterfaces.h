@@ -94,7 +94,7 @@ public:
 /// give.
 class RixGrid : public RixInterface {
 public:
-  /// The numbers of points along u and along v: point (i, j) has the number j * columns + i. False, and both
+  /// The numbers of points along u and along v: point (i, j) has the number j * columns + i. False, and all
   /// 0: the points are hits of rays, which have no neighbours.
   /// Several pieces of surfaces may lie one above the other: only rows of one piece are neighbours, the first
   /// `piece_rows` rows, the next, and so on (of one piece these are all rows).
