@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Every header compiles alone, with the flags of its folder. Usage: check_headers.py BUILD_FOLDER [JOBS]"""
+"""Every header compiles alone, with the flags of its folder. Headers that a source of the build includes before anything
+else have shown it already. Usage: check_headers.py BUILD_FOLDER [JOBS]"""
 import concurrent.futures
 import json
 import os
@@ -28,6 +29,14 @@ def flags_by_folder(build):
     return flags
 
 
+def shown_by_sources(build):
+    """The headers that are the first include of a source that this build compiles."""
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as f:
+        sources = [os.path.relpath(entry["file"], tree.ROOT) for entry in json.load(f)]
+    own = (re.search(r'^#include ([<"])([^>"]+)', tree.read(s), re.MULTILINE) for s in sources if s.endswith(".cpp") and not s.startswith(".."))
+    return {m.group(2) for m in own if m and m.group(1) == '"'}
+
+
 def compile_alone(header, flags):
     folder = os.path.dirname(header)
     while folder and folder not in flags:
@@ -44,7 +53,8 @@ def compile_alone(header, flags):
 def main():
     flags = flags_by_folder(sys.argv[1])
     jobs = int(sys.argv[2]) if len(sys.argv) > 2 else os.cpu_count()
-    headers = [h for h in tree.cpp_files(".h") if "HWY_TARGET_TOGGLE" not in tree.read(h)]
+    shown = shown_by_sources(sys.argv[1])
+    headers = [h for h in tree.cpp_files(".h") if h not in shown and "HWY_TARGET_TOGGLE" not in tree.read(h)]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         results = list(pool.map(lambda h: compile_alone(h, flags), headers))
     tree.finish([r for r in results if r])

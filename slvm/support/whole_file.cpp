@@ -29,6 +29,18 @@ std::string machine() {
   return fmt::format("{:08x}", static_cast<uint32_t>(h ^ (h >> 32)));
 }
 
+/// A process that was killed and that nobody has waited for counts as gone: it writes no more. In containers
+/// such processes may stay for ever.
+bool is_gone(pid_t process) {
+  if (::kill(process, 0) != 0) return errno == ESRCH;
+  std::ifstream status(fmt::format("/proc/{}/stat", process));
+  std::string line;
+  std::getline(status, line);
+  // NUMBER (NAME) STATE ..., where the name may hold anything.
+  size_t name_end = line.rfind(") ");
+  return name_end != line.npos && name_end + 2 < line.size() && line[name_end + 2] == 'Z';
+}
+
 /// Whether a file name is that of a temporary file, with this beginning, of a process that is no more.
 bool is_left_over(std::string_view name, std::string_view beginning) {
   constexpr std::string_view kEnd = ".part";
@@ -39,7 +51,7 @@ bool is_left_over(std::string_view name, std::string_view beginning) {
   // The thread follows; libraries may add something of their own behind the end.
   bool ours = error == std::errc() && process > 0 && end != name.data() + name.size() && *end == '-' &&
               name.find(kEnd) != name.npos;
-  return ours && ::kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+  return ours && is_gone(static_cast<pid_t>(process));
 }
 
 void remove_left_overs(const fs::path& folder, const std::string& beginning) {

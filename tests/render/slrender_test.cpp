@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 namespace {
 
@@ -102,6 +104,8 @@ TEST_F(SlrenderTest, killed_at_any_time_it_leaves_whole_files) {
     }
   }
   EXPECT_GT(killed, 10);
+  // timeout does not wait for what it kills.
+  std::this_thread::sleep_for(std::chrono::seconds(1));
   // What a process that is no more has left, and what is somebody else's.
   std::string part;
   for (const auto& entry : fs::directory_iterator(directory_))

@@ -39,8 +39,8 @@ TEST(WholeFile, appears_on_commit_and_replaces_what_was_there) {
   EXPECT_NE(write_whole_file((folder / "no/such/a").string(), "xyz", 3), "");
 }
 
-/// Another process begins a file and dies, or lives on.
-std::string begun_by_another(const std::string& name, bool dies, pid_t& process) {
+/// Another process begins a file and dies, or lives on; of one that died the end may go unnoticed.
+std::string begun_by_another(const std::string& name, bool dies, pid_t& process, bool noticed = true) {
   int ends[2];
   EXPECT_EQ(::pipe(ends), 0);
   process = ::fork();
@@ -59,7 +59,7 @@ std::string begun_by_another(const std::string& name, bool dies, pid_t& process)
   while (::read(ends[0], &c, 1) == 1)
     path += c;
   ::close(ends[0]);
-  if (dies) ::waitpid(process, nullptr, 0);
+  if (dies && noticed) ::waitpid(process, nullptr, 0);
   return path;
 }
 
@@ -69,13 +69,20 @@ TEST(WholeFile, what_the_dead_left_is_removed_and_the_living_are_left_alone) {
   pid_t dead, alive;
   std::string working = begun_by_another(name, false, alive), left = begun_by_another(name, true, dead);
   std::string other = begun_by_another(name + "b", true, dead);
+  pid_t unnoticed;
+  std::string unreaped = begun_by_another(name, true, unnoticed, false);
   EXPECT_TRUE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(unreaped));
+  siginfo_t info;
+  EXPECT_EQ(::waitid(P_PID, static_cast<id_t>(unnoticed), &info, WEXITED | WNOWAIT), 0);
   EXPECT_EQ(write_whole_file(name, "x", 1), "");
   EXPECT_FALSE(fs::exists(left));
+  EXPECT_FALSE(fs::exists(unreaped));
   EXPECT_TRUE(fs::exists(working));
   EXPECT_TRUE(fs::exists(other));
   ::kill(alive, SIGKILL);
   ::waitpid(alive, nullptr, 0);
+  ::waitpid(unnoticed, nullptr, 0);
 }
 
 } // namespace
