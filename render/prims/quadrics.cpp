@@ -111,27 +111,27 @@ public:
     return box;
   }
 
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.resize(u.size() * v.size());
-    std::vector<Vec2> turns(u.size()); // cosine and sine
-    for (size_t i = 0; i < u.size(); ++i)
-      turns[i] = {std::cos(u[i] * thetamax_), std::sin(u[i] * thetamax_)};
-    size_t k = 0;
-    for (float vj : v) {
-      ProfilePoint p = profile_.at(vj);
-      Vec3 normal = profile_normal(p, vj);
-      for (Vec2 t : turns) {
-        auto turn = [&](Vec3 w) { return Vec3(w.x * t.x - w.y * t.y, w.x * t.y + w.y * t.x, w.z); };
-        out.P[k] = turn(p.q);
-        out.dPdu[k] = turn({-p.q.y * thetamax_, p.q.x * thetamax_, 0});
-        out.dPdv[k] = turn(p.dq);
-        out.N[k] = turn(normal);
-        ++k;
-      }
-    }
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
+    out.resize(at.size());
+    auto column = [&](float u) { return Vec2(std::cos(u * thetamax_), std::sin(u * thetamax_)); };
+    auto row = [&](float v) {
+      ProfilePoint p = profile_.at(v);
+      return Row{p, profile_normal(p, v)};
+    };
+    at.for_each(column, row, [&](size_t k, Vec2 t, const Row& r) {
+      auto turn = [&](Vec3 w) { return Vec3(w.x * t.x - w.y * t.y, w.x * t.y + w.y * t.x, w.z); };
+      out.P[k] = turn(r.point.q);
+      out.dPdu[k] = turn({-r.point.q.y * thetamax_, r.point.q.x * thetamax_, 0});
+      out.dPdv[k] = turn(r.point.dq);
+      out.N[k] = turn(r.normal);
+    });
   }
 
 private:
+  struct Row {
+    ProfilePoint point;
+    Vec3 normal;
+  };
   /// dPdu x dPdv at theta 0, with the direction of dPdu that a point a little off the axis has.
   Vec3 profile_normal(const ProfilePoint& p, float v) const {
     Vec2 q(p.q);

@@ -37,26 +37,30 @@ Vec2 nearest_combination(Vec3 x, Vec3 y, Vec3 d) {
   return {0, dy / yy};
 }
 
-/// The point of the surface that lies nearest to `target`, from a place near it: faces are a little off the
-/// surface, and their own parameters off its.
-SurfaceSpot settle(const Primitive& primitive, Vec3 target, float tolerance, float& u, float& v,
-                   SurfaceLattice& scratch) {
-  constexpr int kRounds = 6;
-  SurfaceSpot spot = evaluate_spot(primitive, u, v, scratch);
-  for (int i = 0; i < kRounds && glm::distance(spot.P, target) > tolerance; ++i) {
-    Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, target - spot.P);
-    float longest = std::max(std::abs(step.x), std::abs(step.y));
-    if (!(longest < kInfinity)) break;
-    if (longest > 0.5f) step *= 0.5f / longest;
-    float to_u = std::clamp(u + step.x, 0.0f, 1.0f), to_v = std::clamp(v + step.y, 0.0f, 1.0f);
-    if (std::abs(to_u - u) + std::abs(to_v - v) < 1e-6f) break;
-    SurfaceSpot next = evaluate_spot(primitive, to_u, to_v, scratch);
-    if (glm::distance(next.P, target) > glm::distance(spot.P, target)) break;
-    u = to_u;
-    v = to_v;
-    spot = next;
-  }
-  return spot;
+SurfaceSpot in_camera(const Matrix4& to_camera, const SurfaceLattice& lattice, size_t k) {
+  return {transform_point(to_camera, lattice.P[k]), transform_vector(to_camera, lattice.dPdu[k]),
+          transform_vector(to_camera, lattice.dPdv[k])};
+}
+
+Vec3 target_of(const HitRay& hit) {
+  return hit.origin + hit.direction * hit.distance;
+}
+
+/// Whether a point of the surface is the one below or above where the ray met the faces: it may be off them,
+/// as they are off the surface, but not beside.
+bool is_near(const SurfaceSpot& spot, const HitRay& hit) {
+  const float most = kNearEnough * hit.distance;
+  Vec3 off = target_of(hit) - spot.P;
+  if (glm::dot(off, off) <= most * most) return true;
+  Vec3 normal = glm::cross(spot.dPdu, spot.dPdv), beside = glm::cross(off, normal);
+  return glm::dot(beside, beside) <= most * most * glm::dot(normal, normal);
+}
+
+void copy_point(const SurfaceLattice& from, size_t i, SurfaceLattice& to, size_t k) {
+  to.P[k] = from.P[i];
+  to.dPdu[k] = from.dPdu[i];
+  to.dPdv[k] = from.dPdv[i];
+  to.N[k] = from.N[i];
 }
 
 /// A step from `at` within 0 to 1, in the direction there is more room in.
@@ -66,15 +70,6 @@ float step_inside(float at, float wanted) {
 }
 
 } // namespace
-
-SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch) {
-  primitive.geometry->evaluate({&u, 1}, {&v, 1}, scratch);
-  const Matrix4& m = primitive.state->object_to_camera;
-  return {transform_point(m, scratch.P[0]),
-          transform_vector(m, scratch.dPdu[0]),
-          transform_vector(m, scratch.dPdv[0]),
-          {scratch.P[0], scratch.dPdu[0], scratch.dPdv[0], scratch.N[0]}};
-}
 
 Footprint footprint_on(const HitRay& ray, const SurfaceSpot& spot) {
   Vec3 normal = glm::cross(spot.dPdu, spot.dPdv);
@@ -92,22 +87,85 @@ Footprint footprint_on(const HitRay& ray, const SurfaceSpot& spot) {
   return {x.x, x.y, y.x, y.y};
 }
 
-void HitGrid::find_spots(const Scene& scene, std::span<const HitRay> hits) {
+void HitGrid::find_runs(const Scene& scene, std::span<const HitRay> hits) {
   moved_.clear();
-  primitives_.clear();
-  spots_.clear();
-  for (const HitRay& hit : hits) {
+  runs_.clear();
+  for (size_t i = 0; i < hits.size(); ++i) {
+    const HitRay& hit = hits[i];
     const Primitive* p = &scene.primitives[hit.place.primitive];
-    if (hit.time > 0 && (!p->deformation.empty() || !p->state->motion.empty()))
-      p = &moved_.emplace_back(primitive_at(*p, hit.time));
-    float u = hit.place.u, v = hit.place.v;
-    Vec3 target = hit.origin + hit.direction * hit.distance;
+    bool moves = hit.time > 0 && (!p->deformation.empty() || !p->state->motion.empty());
+    if (i > 0 && hits[i - 1].place.primitive == hit.place.primitive &&
+        (!moves || hits[i - 1].time == hit.time)) {
+      ++runs_.back().count;
+      continue;
+    }
+    if (moves) p = &moved_.emplace_back(primitive_at(*p, hit.time));
+    runs_.push_back({p, i, 1, hit.place.displaced});
+  }
+}
+
+/// Places of a run's hits (row 0) or of their neighbours.
+UvPoints HitGrid::points(const Run& run, size_t row) const {
+  size_t first = row * spots_.size() + run.first;
+  return {std::span(u_).subspan(first, run.count), std::span(v_).subspan(first, run.count), true};
+}
+
+void HitGrid::find_spots(const Run& run, std::span<const HitRay> hits) {
+  const Matrix4& m = run.primitive->state->object_to_camera;
+  run.primitive->geometry->evaluate(points(run, 0), scratch_);
+  open_.clear();
+  for (size_t i = 0; i < run.count; ++i) {
+    size_t k = run.first + i;
+    copy_point(scratch_, i, lattice_, k);
+    spots_[k] = in_camera(m, lattice_, k);
     // Where faces are displaced they tell nothing about the surface below.
-    spots_.push_back(hit.place.displaced ? evaluate_spot(*p, u, v, scratch_)
-                                         : settle(*p, target, kNearEnough * hit.distance, u, v, scratch_));
-    primitives_.push_back(p);
-    u_.push_back(u);
-    v_.push_back(v);
+    if (!run.displaced && !is_near(spots_[k], hits[k])) open_.push_back(static_cast<uint32_t>(k));
+  }
+  settle(run, hits);
+}
+
+/// Takes `open_` hits to the points of the surface that lie nearest to where their rays met the faces, which
+/// are a little off the surface, and their parameters off its.
+void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
+  constexpr int kRounds = 6;
+  const Matrix4& m = run.primitive->state->object_to_camera;
+  for (int round = 0; round < kRounds && !open_.empty(); ++round) {
+    next_u_.clear();
+    next_v_.clear();
+    std::erase_if(open_, [&](uint32_t k) {
+      Vec2 step = nearest_combination(spots_[k].dPdu, spots_[k].dPdv, target_of(hits[k]) - spots_[k].P);
+      float longest = std::max(std::abs(step.x), std::abs(step.y));
+      if (!(longest < kInfinity)) return true;
+      if (longest > 0.5f) step *= 0.5f / longest;
+      float u = std::clamp(u_[k] + step.x, 0.0f, 1.0f), v = std::clamp(v_[k] + step.y, 0.0f, 1.0f);
+      if (std::abs(u - u_[k]) + std::abs(v - v_[k]) < 1e-6f) return true;
+      next_u_.push_back(u);
+      next_v_.push_back(v);
+      return false;
+    });
+    if (open_.empty()) return;
+    run.primitive->geometry->evaluate({next_u_, next_v_, true}, scratch_);
+    size_t kept = 0;
+    for (size_t i = 0; i < open_.size(); ++i) {
+      uint32_t k = open_[i];
+      Vec3 target = target_of(hits[k]);
+      SurfaceSpot next = in_camera(m, scratch_, i);
+      if (glm::distance(next.P, target) > glm::distance(spots_[k].P, target)) continue;
+      u_[k] = next_u_[i];
+      v_[k] = next_v_[i];
+      copy_point(scratch_, i, lattice_, k);
+      spots_[k] = next;
+      if (!is_near(next, hits[k])) open_[kept++] = k;
+    }
+    open_.resize(kept);
+  }
+}
+
+void HitGrid::evaluate_beside(const Run& run) {
+  for (size_t row : {1, 2}) {
+    run.primitive->geometry->evaluate(points(run, row), scratch_);
+    for (size_t i = 0; i < run.count; ++i)
+      copy_point(scratch_, i, lattice_, row * spots_.size() + run.first + i);
   }
 }
 
@@ -139,19 +197,29 @@ void HitGrid::take_footprints(std::span<const HitRay> hits) {
   }
 }
 
-void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside,
-                   const DiceContext& context) {
-  size_t n = hits.size();
-  u_.clear();
-  v_.clear();
-  find_spots(scene, hits);
-  grid.reset(static_cast<int>(n), beside ? 3 : 1);
+void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside, const DiceContext& context,
+                   const VarFilter& is_read) {
+  const size_t n = hits.size(), rows = beside ? 3 : 1;
+  find_runs(scene, hits);
+  u_.resize(n);
+  v_.resize(n);
+  for (size_t i = 0; i < n; ++i) {
+    u_[i] = hits[i].place.u;
+    v_[i] = hits[i].place.v;
+  }
+  spots_.resize(n);
+  lattice_.resize(rows * n);
+  for (const Run& run : runs_)
+    find_spots(run, hits);
+  grid.reset(static_cast<int>(n), static_cast<int>(rows));
   if (beside) take_footprints(hits);
-  std::vector<SurfacePoints> parts;
-  parts.reserve(u_.size());
-  for (size_t k = 0; k < u_.size(); ++k)
-    parts.push_back({primitives_[k % n], {&u_[k], 1}, {&v_[k], 1}, k < n ? &spots_[k].object : nullptr});
-  dice_points(parts, context, grid);
+  parts_.clear();
+  for (const Run& run : runs_) {
+    if (beside) evaluate_beside(run);
+    for (size_t row = 0; row < rows; ++row)
+      parts_.push_back({run.primitive, points(run, row), row * n + run.first});
+  }
+  dice_points(parts_, lattice_, context, is_read, grid);
   // A primitive that was moved in time is this grid's only.
   grid.user = &scene.primitives[hits[0].place.primitive];
   grid.lattice = slvm::Lattice::kHits;

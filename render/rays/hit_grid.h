@@ -26,9 +26,7 @@ struct HitRay {
 /// Where a surface is at a point, in camera space, with derivatives by its parameter square.
 struct SurfaceSpot {
   Vec3 P, dPdu, dPdv;
-  SurfaceValue object; ///< the same in object space
 };
-SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch);
 
 /// The footprint of a ray on a surface in units of its parameters: what u and v change by to the neighbouring
 /// rays.
@@ -41,16 +39,28 @@ class HitGrid {
 public:
   slvm::Grid grid{1, 1};
 
-  /// Fills the grid with hits whose primitives can be diced together (dice_points). `beside`: with
-  /// neighbours.
-  void dice(const Scene& scene, std::span<const HitRay> hits, bool beside, const DiceContext& context);
+  /// Fills the grid with hits whose primitives can be diced together (dice_points); those of one primitive
+  /// follow each other, so that its geometry is asked once for all. `beside`: with neighbours. `is_read`: the
+  /// primitive variables somebody wants; empty: all.
+  void dice(const Scene& scene, std::span<const HitRay> hits, bool beside, const DiceContext& context,
+            const VarFilter& is_read = {});
   /// To be called around a displacement shader. Afterwards points are back where they were if rays do not see
   /// displacements: the shader then has changed N only.
   void before_displacement();
   void after_displacement(bool moved);
 
 private:
-  void find_spots(const Scene& scene, std::span<const HitRay> hits);
+  /// Hits of one primitive, at one time if it moves.
+  struct Run {
+    const Primitive* primitive;
+    size_t first, count;
+    bool displaced;
+  };
+  void find_runs(const Scene& scene, std::span<const HitRay> hits);
+  void find_spots(const Run& run, std::span<const HitRay> hits);
+  void settle(const Run& run, std::span<const HitRay> hits);
+  void evaluate_beside(const Run& run);
+  UvPoints points(const Run& run, size_t row) const;
   void take_footprints(std::span<const HitRay> hits);
   void stretch(size_t hits);
   void set_steps(size_t hits);
@@ -58,9 +68,13 @@ private:
   void aim(size_t lane);
 
   std::deque<Primitive> moved_; ///< primitives as they are at the time of a ray
-  std::vector<const Primitive*> primitives_;
+  std::vector<Run> runs_;
+  std::vector<SurfacePoints> parts_;
   std::vector<SurfaceSpot> spots_;
-  std::vector<float> u_, v_;                 ///< of all points
+  std::vector<float> u_, v_; ///< of all points
+  SurfaceLattice lattice_;   ///< of all points
+  std::vector<uint32_t> open_; ///< hits that are not where their rays are yet, and where to look next:
+  std::vector<float> next_u_, next_v_;
   std::vector<float> u_stretch_, v_stretch_; ///< of a hit: the wanted step by the one that is evaluated
   std::vector<float> footprint_[4], weight_[3];
   std::vector<Vec3> origins_; ///< of all points

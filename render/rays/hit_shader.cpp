@@ -85,9 +85,8 @@ bool is_from(std::span<const slvm::RayOutput> outputs, std::initializer_list<Fro
 }
 
 /// Whether results of a shader can depend on neighbouring points.
-bool differentiates(const slvm::Instance* instance) {
-  if (!instance) return false;
-  const slvm::Facts& f = instance->shader().program().facts;
+bool differentiates(const slvm::Instance& instance) {
+  const slvm::Facts& f = instance.shader().program().facts;
   if (f.derivatives || f.textures) return true;
   // Rays that go on have footprints, too.
   return f.rays && std::any_of(f.shadeops.begin(), f.shadeops.end(), [](const std::string& s) {
@@ -95,11 +94,11 @@ bool differentiates(const slvm::Instance* instance) {
          });
 }
 
-bool uses_eye(const slvm::Instance* instance) {
-  if (!instance) return false;
-  const auto& slots = instance->program().slots;
+/// Whether a shader reads a predefined variable (or else a parameter).
+bool reads(const slvm::Instance& instance, std::string_view name, bool parameter) {
+  const auto& slots = instance.program().slots;
   return std::any_of(slots.begin(), slots.end(),
-                     [](const slvm::Slot& s) { return !s.parameter && s.name == "E"; });
+                     [&](const slvm::Slot& s) { return s.parameter == parameter && s.name == name; });
 }
 
 bool fits(const slvm::RayOutput& out, slvm::Type type, uint32_t elements) {
@@ -107,14 +106,20 @@ bool fits(const slvm::RayOutput& out, slvm::Type type, uint32_t elements) {
   return same && out.elements == elements;
 }
 
-void store(const slvm::RayOutput& out, const slvm::Planes* from, std::span<const HitRay> hits) {
+/// Stores values of hits at their rays. `lanes`: only of these hits; empty: of all.
+void store(const slvm::RayOutput& out, const slvm::Planes* from, std::span<const HitRay> hits,
+           std::span<const uint32_t> lanes) {
   if (!from || !from->data || !fits(out, from->type, from->elements)) return;
   size_t planes = static_cast<size_t>(slvm::components(out.type)) * (out.elements ? out.elements : 1);
-  for (size_t i = 0; i < hits.size(); ++i) {
+  auto one = [&](size_t i) {
     for (size_t c = 0; c < planes; ++c)
       out.data[c * out.pitch + hits[i].ray] = from->get(c, i);
     if (out.found) out.found[hits[i].ray] = 1;
-  }
+  };
+  for (uint32_t i : lanes)
+    one(i);
+  for (size_t i = 0; i < hits.size() && lanes.empty(); ++i)
+    one(i);
 }
 
 } // namespace
@@ -124,6 +129,7 @@ struct HitShader::Worker {
   Worker(const slvm::Machine& machine, slvm::RendererServices& services) : context(machine, services) {}
   slvm::ShadingContext context;
   HitGrid hits;
+  HitVolumes volumes;
   slvm::Grid lattice{2, 2};
 };
 
@@ -155,12 +161,30 @@ private:
 
 /// Which shaders have to run for the outputs.
 struct HitShader::Demand {
-  bool displacement, surface, atmosphere;
+  bool displacement, surface, volumes;
 
   Demand(std::span<const slvm::RayOutput> outputs, bool shades) {
-    atmosphere = shades && is_from(outputs, {From::kShaded, From::kVolume, From::kAtmosphere});
-    surface = shades && (atmosphere || is_from(outputs, {From::kSurface}));
+    volumes = shades && is_from(outputs, {From::kShaded, From::kVolume, From::kAtmosphere, From::kInterior,
+                                          From::kExterior});
+    surface = shades && (volumes || is_from(outputs, {From::kSurface}));
     displacement = surface || (shades && is_from(outputs, {From::kDisplacement}));
+  }
+};
+
+/// What is the same for the hits of a batch that can be diced together.
+struct HitShader::Work {
+  const Primitive* primitive = nullptr;
+  slvm::ShaderSet set; ///< those that run
+  std::vector<const slvm::Instance*> volumes;
+  bool plain = false;  ///< no shader runs: the look of the primitive
+  bool beside = false; ///< somebody differentiates
+  bool apart = false;  ///< E is read: hits of rays from different places cannot be shaded together
+  VarFilter is_read;
+
+  template <class F> bool any_shader(F&& f) const {
+    for (const slvm::Instance* shader : {set.displacement, set.surface})
+      if (shader && f(*shader)) return true;
+    return std::any_of(volumes.begin(), volumes.end(), [&](const slvm::Instance* v) { return f(*v); });
   }
 };
 
@@ -274,17 +298,41 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
   sort(hits);
   Demand demand(outputs, batch.shades);
   WorkerLease lease(*this, false);
+  Work work;
+  uint32_t last = 0;
   auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
-    const slvm::ShaderSet& set = set_of(scene_.primitives[hits[first].place.primitive]);
-    // E is uniform: where a shader looks at it, hits of rays from different places cannot be shaded together.
-    bool apart = demand.displacement &&
-                 (uses_eye(set.displacement) || uses_eye(set.surface) || uses_eye(set.atmosphere));
-    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == group(first); ++end)
-      if (apart && hits[end].origin != hits[first].origin) break;
-    shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand,
+    if (group(first) != last) {
+      last = group(first);
+      work = prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand);
+    }
+    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == last; ++end)
+      if (work.apart && hits[end].origin != hits[first].origin) break;
+    shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand, work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }
+}
+
+HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
+                                   std::span<const slvm::RayOutput> outputs, const Demand& demand) const {
+  Work w;
+  w.primitive = &primitive;
+  const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
+  w.set = bound.shaders;
+  w.plain = is_primitive_mode(primitive, batch);
+  if (!demand.displacement || w.plain) w.set.displacement = nullptr;
+  if (!demand.surface || w.plain) w.set.surface = nullptr;
+  if (demand.volumes && !w.plain) w.volumes = possible_volumes(batch.from.shaders, w.set);
+  w.beside = w.any_shader(differentiates) ||
+             (w.set.surface && std::any_of(bound.lights.begin(), bound.lights.end(),
+                                           [](auto* light) { return differentiates(*light); }));
+  w.apart = w.any_shader([](const slvm::Instance& shader) { return reads(shader, "E", false); });
+  w.is_read = [outputs, shaders = w](const std::string& name) {
+    return shaders.any_shader([&](const slvm::Instance& s) { return reads(s, name, true); }) ||
+           std::any_of(outputs.begin(), outputs.end(),
+                       [&](const slvm::RayOutput& out) { return out.name == name; });
+  };
+  return w;
 }
 
 bool HitShader::is_primitive_mode(const Primitive& p, const HitBatch& batch) const {
@@ -311,14 +359,15 @@ void look_like_primitive(slvm::Grid& grid) {
 /// Takes the outputs of one kind from a grid: parameters of the shader, predefined variables, primitive
 /// variables.
 void take(const slvm::ShadingContext& context, const slvm::Grid& grid, const slvm::Instance* shader,
-          From from, std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs) {
+          From from, std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs,
+          std::span<const uint32_t> lanes = {}) {
   for (const slvm::RayOutput& out : outputs) {
     if (out.from != from) continue;
     const slvm::Planes* planes = shader ? context.output(*shader, out.name) : nullptr;
     if (!planes)
       if (Global g = slvm::find_global(out.name); g != Global::kCount) planes = &grid.variable(g);
     if (!planes || !planes->data) planes = grid.primvar(std::string(out.name));
-    store(out, planes, hits);
+    store(out, planes, hits, lanes);
   }
 }
 
@@ -343,19 +392,11 @@ void HitShader::take_attributes(const HitBatch& batch, const slvm::Grid& grid, c
 }
 
 void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
-                           std::span<const slvm::RayOutput> outputs, const Demand& demand, uint64_t id) {
-  const Primitive& primitive = scene_.primitives[hits[0].place.primitive];
-  slvm::ShaderSet set = set_of(primitive);
-  bool plain = is_primitive_mode(primitive, batch), surface = demand.surface && !plain;
-  if (!demand.displacement || plain) set.displacement = nullptr;
-  if (!surface) set.surface = nullptr;
-  if (!demand.atmosphere || plain) set.atmosphere = nullptr;
-  bool beside =
-      differentiates(set.displacement) || differentiates(set.surface) || differentiates(set.atmosphere);
-  for (const slvm::Instance* light : shaders_.find(&primitive.attributes())->lights)
-    beside = beside || (set.surface && differentiates(light));
+                           std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
+                           uint64_t id) {
+  const slvm::ShaderSet& set = work.set;
   slvm::Grid& grid = worker.hits.grid;
-  worker.hits.dice(scene_, hits, beside, dice_);
+  worker.hits.dice(scene_, hits, work.beside, dice_, work.is_read);
   const float* weight[3] = {grid.ray.weight[0], grid.ray.weight[1], grid.ray.weight[2]};
   grid.ray = batch.facts;
   std::copy_n(weight, 3, grid.ray.weight);
@@ -368,22 +409,28 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
   if (set.displacement) {
     worker.hits.before_displacement();
     context.displace(set, grid);
-    worker.hits.after_displacement(primitive.attributes().rays.displacements);
+    worker.hits.after_displacement(work.primitive->attributes().rays.displacements);
     take(context, grid, set.displacement, From::kDisplacement, hits, outputs);
   }
   if (!demand.surface) return;
-  if (plain)
+  context.shade_surface(set, grid);
+  if (work.plain)
     look_like_primitive(grid);
   else if (!set.surface)
     shade_by_default(grid);
-  if (set.surface) context.shade_surface(set, grid);
   take(context, grid, set.surface, From::kSurface, hits, outputs);
-  if (set.surface) context.shade_atmosphere(); // or what ends the grid
-  if (set.atmosphere) {
-    if (!set.surface) context.run(*set.atmosphere, grid);
-    take(context, grid, set.atmosphere, From::kVolume, hits, outputs);
-    take(context, grid, set.atmosphere, From::kAtmosphere, hits, outputs);
+  if (!work.volumes.empty()) {
+    worker.volumes.find(batch.from, set, grid, hits);
+    worker.volumes.shade(context, grid, hits, [&](const slvm::Instance& v, std::span<const uint32_t> lanes) {
+      take(context, grid, &v, From::kVolume, hits, outputs, lanes);
+      take(context, grid, &v,
+           &v == set.atmosphere                                     ? From::kAtmosphere
+           : &v == set.interior || &v == batch.from.shaders.interior ? From::kInterior
+                                                                    : From::kExterior,
+           hits, outputs, lanes);
+    });
   }
+  context.end_grid();
   take(context, grid, nullptr, From::kShaded, hits, outputs);
 }
 

@@ -4,6 +4,7 @@
 #include "render/hider/random.h"
 #include "render/rays/environment_distribution.h"
 #include "render/rays/hemisphere_cache.h"
+#include "render/rays/hemisphere_records.h"
 #include "render/rays/shooter.h"
 
 #include <cmath>
@@ -35,7 +36,8 @@ constexpr std::string_view type_of(slvm::RayKind kind) {
 RayTracer::RayTracer(const Scene& scene, const slvm::Machine& machine, const BoundShaders& shaders,
                      slvm::RendererServices& services)
     : scene_(scene), services_(services), camera_(scene.options),
-      hits_(scene, camera_, machine, shaders, services), cache_(std::make_unique<HemisphereCache>()) {
+      hits_(scene, camera_, machine, shaders, services), cache_(std::make_unique<HemisphereCache>()),
+      records_(std::make_unique<HemisphereRecords>()) {
   min_weight_ = number_option(scene.options, "trace:minweight", 0);
   max_depth_ = number_option(scene.options, "trace:maxdepth", 10);
   float kilobytes = number_option(scene.options, "limits:geocachememory", 1 << 20);

@@ -11,6 +11,7 @@
 namespace render {
 
 class HemisphereCache;
+class HemisphereRecords;
 
 class RayTracer final : public slvm::RayServices {
 public:
@@ -34,6 +35,7 @@ public:
 private:
   friend class HemisphereSampler;
   struct Shooter;
+  class HemisphereRun;
 
   const RayAttributes& attributes_of(const slvm::Grid& grid) const {
     const auto* primitive = static_cast<const Primitive*>(grid.user);
@@ -59,6 +61,7 @@ private:
   std::once_flag geometry_made_;
   std::unique_ptr<RayGeometry> geometry_;
   std::unique_ptr<HemisphereCache> cache_;
+  std::unique_ptr<HemisphereRecords> records_;
   std::mutex maps_mutex_;
   std::map<std::string, std::unique_ptr<class EnvironmentDistribution>, std::less<>> maps_;
   std::atomic<size_t> rays_{0}, shadow_rays_{0}, hemisphere_rays_{0}, hemispheres_{0};

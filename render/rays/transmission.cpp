@@ -69,7 +69,7 @@ bool find_more(const RayGeometry& geometry, const RayRule& rule, LightPath& path
       return true;
     }
     path.end = {hit.distance, hit.item, hit.face};
-    if (geometry.traits(hit.item).shadow == RayOpacity::kOpaque) return false;
+    if (geometry.shadow(hit) == RayOpacity::kOpaque) return false;
     path.layers.push_back(hit);
   }
   return true;
@@ -82,9 +82,9 @@ const Color* constant_opacity(const Primitive& p) {
   return &p.attributes().opacity;
 }
 
-RayOpacity opacity_of(const RayTraits& traits, slvm::HitMode mode) {
+RayOpacity opacity_of(RayOpacity own, slvm::HitMode mode) {
   if (mode == slvm::HitMode::kPrimitive) return RayOpacity::kOs;
-  return mode == slvm::HitMode::kShader ? RayOpacity::kShader : traits.shadow;
+  return mode == slvm::HitMode::kShader ? RayOpacity::kShader : own;
 }
 
 } // namespace
@@ -99,7 +99,9 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
     size_t end = std::min(path.layers.size(), path.next + kShadedAtATime);
     for (; path.next < end; ++path.next) {
       const RayHit& layer = path.layers[path.next];
-      RayOpacity opacity = opacity_of(geometry_->traits(layer.item), options.mode);
+      RayOpacity opacity = opacity_of(geometry_->shadow(layer), options.mode);
+      if (opacity == RayOpacity::kTransparent) continue;
+      if (opacity == RayOpacity::kOpaque) path.through = Color(0.0f);
       if (opacity == RayOpacity::kOs) {
         const Primitive& p = scene_.primitives[geometry_->place(layer).primitive];
         if (const Color* constant = constant_opacity(p)) {

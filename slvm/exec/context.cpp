@@ -144,7 +144,19 @@ void ShadingContext::shade_surface(const ShaderSet& set, Grid& grid) {
 }
 
 void ShadingContext::shade_atmosphere() {
-  impl_->execute(Impl::kAtmosphere, impl_->shaders.atmosphere);
+  if (impl_->shaders.atmosphere) shade_volume(*impl_->shaders.atmosphere);
+  end_grid();
+}
+
+void ShadingContext::shade_volume(const Instance& volume) {
+  const ShaderSet& set = impl_->shaders;
+  impl_->execute(&volume == set.interior   ? Impl::kInterior
+                 : &volume == set.exterior ? Impl::kExterior
+                                           : Impl::kAtmosphere,
+                 &volume);
+}
+
+void ShadingContext::end_grid() {
   impl_->plugins.end_grid();
 }
 

@@ -27,7 +27,7 @@ struct GridState {
   const ShaderRun* displacement = nullptr;
   const ShaderRun* surface = nullptr;
   const ShaderRun* atmosphere = nullptr;
-  const ShaderRun* interior = nullptr; ///< these two never run here: their parameters only
+  const ShaderRun* interior = nullptr; ///< these two run at hits of rays only; else their parameters count
   const ShaderRun* exterior = nullptr;
   ExecutionObserver* observer = nullptr; ///< told of each instruction; null: nobody
   PluginThread* plugins = nullptr;       ///< what this thread has of plug-ins
