@@ -34,6 +34,23 @@ Vec3 normal_by(const Matrix4& inverse, Vec3 n) {
   return {row(0), row(1), row(2)};
 }
 
+Matrix4 scaled(Matrix4 m, float by) {
+  for (float& x : m.m)
+    x *= by;
+  return m;
+}
+
+/// From points to planes.
+template <class F> void transform_all(const Vec3* from, size_t count, Triple to, F&& transform) {
+  float *__restrict x = to.x, *__restrict y = to.y, *__restrict z = to.z;
+  for (size_t k = 0; k < count; ++k) {
+    Vec3 p = transform(from[k]);
+    x[k] = p.x;
+    y[k] = p.y;
+    z[k] = p.z;
+  }
+}
+
 std::vector<float> parameters(float from, float to, int n) {
   std::vector<float> out(static_cast<size_t>(n));
   for (int i = 0; i < n; ++i)
@@ -86,21 +103,25 @@ void Dicer::set_geometry(const SurfaceLattice& lattice) {
          I = triple(grid_, Global::kI);
   for (const SurfacePoints& part : parts_) {
     const Primitive& primitive = *part.primitive;
-    const Matrix4 m = primitive.state->object_to_camera;
-    const Matrix4& inverse = primitive.state->camera_to_object;
-    float along_u = 1 / (primitive.uv.u1 - primitive.uv.u0),
-          along_v = 1 / (primitive.uv.v1 - primitive.uv.v0);
-    for (size_t k = part.first, end = k + part.at.size(); k < end; ++k) {
-      Vec3 p = transform_point(m, lattice.P[k]);
-      P.set(k, p);
-      I.set(k, context_.camera->incident(p));
-      dPdu.set(k, transform_vector(m, lattice.dPdu[k] * along_u));
-      dPdv.set(k, transform_vector(m, lattice.dPdv[k] * along_v));
-      Vec3 n = normal_by(inverse, lattice.N[k]) * sign;
-      N.set(k, n);
-      Ng.set(k, n);
-    }
+    const Matrix4 m = primitive.state->object_to_camera, inverse = primitive.state->camera_to_object;
+    const size_t first = part.first, count = part.at.size();
+    auto each = [&](const std::vector<Vec3>& from, Triple to, auto&& transform) {
+      transform_all(from.data() + first, count, {to.x + first, to.y + first, to.z + first}, transform);
+    };
+    each(lattice.P, P, [&](Vec3 p) { return transform_point(m, p); });
+    const Matrix4 u = scaled(m, 1 / (primitive.uv.u1 - primitive.uv.u0)),
+                  v = scaled(m, 1 / (primitive.uv.v1 - primitive.uv.v0));
+    each(lattice.dPdu, dPdu, [&](Vec3 d) { return transform_vector(u, d); });
+    each(lattice.dPdv, dPdv, [&](Vec3 d) { return transform_vector(v, d); });
+    const Matrix4 n = scaled(inverse, sign);
+    each(lattice.N, N, [&](Vec3 normal) { return normal_by(n, normal); });
   }
+  const size_t points = grid_.points();
+  for (size_t k = 0; k < points; ++k)
+    I.set(k, context_.camera->incident(P.get(k)));
+  std::copy_n(N.x, points, Ng.x);
+  std::copy_n(N.y, points, Ng.y);
+  std::copy_n(N.z, points, Ng.z);
 }
 
 void Dicer::set_parameters() {

@@ -135,7 +135,8 @@ private:
   /// dPdu x dPdv at theta 0, with the direction of dPdu that a point a little off the axis has.
   Vec3 profile_normal(const ProfilePoint& p, float v) const {
     Vec2 q(p.q);
-    if (glm::length(q) < 1e-4f * glm::length(p.dq)) q = Vec2(profile_.at(v < 0.5f ? v + 1e-3f : v - 1e-3f).q);
+    if (glm::dot(q, q) < 1e-8f * glm::dot(p.dq, p.dq))
+      q = Vec2(profile_.at(v < 0.5f ? v + 1e-3f : v - 1e-3f).q);
     Vec3 tangent(-q.y, q.x, 0);
     Vec3 n = glm::cross(tangent, p.dq) * (thetamax_ < 0 ? -1.0f : 1.0f);
     float length = glm::length(n);

@@ -157,7 +157,7 @@ struct Query {
   std::vector<RayHit>* list = nullptr;
   size_t most = 0;
   std::vector<RayCrossing>* crossings = nullptr; ///< with a solid, while they are gathered
-  uint32_t item = 0; ///< being looked at
+  uint32_t item = 0;                             ///< being looked at
   uint32_t hit_item = 0;
   bool needs_front = false, needs_back = false, flipped = false; ///< in that item
 
@@ -251,7 +251,8 @@ RTCRay place(const RTCRay& ray, const Matrix4& m) {
   return out;
 }
 
-/// What rays of both kinds do at an item: trace(query, is solid, faces, filter) takes the ray in the item's own space.
+/// What rays of both kinds do at an item: trace(query, is solid, faces, filter) takes the ray in the item's
+/// own space.
 template <class Arguments, class Trace> void visit_item(const Arguments* args, RTCRay& ray, Trace&& trace) {
   if (!args->valid[0]) return;
   Query& q = query_of(args->context, false);

@@ -27,7 +27,7 @@ namespace render {
 
 /// How far samples may be used.
 struct RecordRule {
-  uint64_t call = 0;     ///< of all that samples depend on but the place
+  uint64_t call = 0;      ///< of all that samples depend on but the place
   float max_error = 0.5f; ///< of Ward's estimate: distance by the sample's own, plus the turn of the normal
   float tolerance = 0.1f; ///< by which a new sample may differ from what was foretold, relative to the whole
   float nearest = 0, farthest = kInfinity; ///< bounds of the distance samples are used at

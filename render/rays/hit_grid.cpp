@@ -15,7 +15,7 @@ using slvm::Global;
 /// nearer is extrapolated.
 constexpr float kLeastStep = 1.0f / 8192, kMostStep = 1.0f / 16;
 /// How far from the ray a hit may be, by its distance: about half a pixel of a usual camera.
-constexpr float kNearEnough = 2e-4f;
+constexpr float kNearEnough = 3e-4f;
 /// Footprints do not grow further at more grazing angles.
 constexpr float kLeastCosine = 0.03f;
 
@@ -48,12 +48,12 @@ Vec3 target_of(const HitRay& hit) {
 
 /// Whether a point of the surface is the one below or above where the ray met the faces: it may be off them,
 /// as they are off the surface, but not beside.
-bool is_near(const SurfaceSpot& spot, const HitRay& hit) {
+bool is_near(const PrimitiveState& state, const SurfaceLattice& lattice, size_t k, const HitRay& hit) {
   const float most = kNearEnough * hit.distance;
-  Vec3 off = target_of(hit) - spot.P;
-  if (glm::dot(off, off) <= most * most) return true;
-  Vec3 normal = glm::cross(spot.dPdu, spot.dPdv), beside = glm::cross(off, normal);
-  return glm::dot(beside, beside) <= most * most * glm::dot(normal, normal);
+  Vec3 off = transform_point(state.camera_to_object, target_of(hit)) - lattice.P[k], N = lattice.N[k];
+  float along = glm::dot(off, N), length = glm::dot(N, N);
+  Vec3 beside = transform_vector(state.object_to_camera, length > 0 ? off - N * (along / length) : off);
+  return glm::dot(beside, beside) <= most * most;
 }
 
 void copy_point(const SurfaceLattice& from, size_t i, SurfaceLattice& to, size_t k) {
@@ -106,22 +106,21 @@ void HitGrid::find_runs(const Scene& scene, std::span<const HitRay> hits) {
 
 /// Places of a run's hits (row 0) or of their neighbours.
 UvPoints HitGrid::points(const Run& run, size_t row) const {
-  size_t first = row * spots_.size() + run.first;
+  size_t first = row * hits_ + run.first;
   return {std::span(u_).subspan(first, run.count), std::span(v_).subspan(first, run.count), true};
 }
 
 void HitGrid::find_spots(const Run& run, std::span<const HitRay> hits) {
-  const Matrix4& m = run.primitive->state->object_to_camera;
+  const PrimitiveState& state = *run.primitive->state;
   run.primitive->geometry->evaluate(points(run, 0), scratch_);
   open_.clear();
   for (size_t i = 0; i < run.count; ++i) {
     size_t k = run.first + i;
     copy_point(scratch_, i, lattice_, k);
-    spots_[k] = in_camera(m, lattice_, k);
     // Where faces are displaced they tell nothing about the surface below.
-    if (!run.displaced && !is_near(spots_[k], hits[k])) open_.push_back(static_cast<uint32_t>(k));
+    if (!run.displaced && !is_near(state, lattice_, k, hits[k])) open_.push_back(static_cast<uint32_t>(k));
   }
-  settle(run, hits);
+  if (!open_.empty()) settle(run, hits);
 }
 
 /// Takes `open_` hits to the points of the surface that lie nearest to where their rays met the faces, which
@@ -133,7 +132,8 @@ void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
     next_u_.clear();
     next_v_.clear();
     std::erase_if(open_, [&](uint32_t k) {
-      Vec2 step = nearest_combination(spots_[k].dPdu, spots_[k].dPdv, target_of(hits[k]) - spots_[k].P);
+      SurfaceSpot spot = in_camera(m, lattice_, k);
+      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, target_of(hits[k]) - spot.P);
       float longest = std::max(std::abs(step.x), std::abs(step.y));
       if (!(longest < kInfinity)) return true;
       if (longest > 0.5f) step *= 0.5f / longest;
@@ -149,13 +149,13 @@ void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
     for (size_t i = 0; i < open_.size(); ++i) {
       uint32_t k = open_[i];
       Vec3 target = target_of(hits[k]);
-      SurfaceSpot next = in_camera(m, scratch_, i);
-      if (glm::distance(next.P, target) > glm::distance(spots_[k].P, target)) continue;
+      if (glm::distance(transform_point(m, scratch_.P[i]), target) >
+          glm::distance(transform_point(m, lattice_.P[k]), target))
+        continue;
       u_[k] = next_u_[i];
       v_[k] = next_v_[i];
       copy_point(scratch_, i, lattice_, k);
-      spots_[k] = next;
-      if (!is_near(next, hits[k])) open_[kept++] = k;
+      if (!is_near(*run.primitive->state, lattice_, k, hits[k])) open_[kept++] = k;
     }
     open_.resize(kept);
   }
@@ -165,7 +165,7 @@ void HitGrid::evaluate_beside(const Run& run) {
   for (size_t row : {1, 2}) {
     run.primitive->geometry->evaluate(points(run, row), scratch_);
     for (size_t i = 0; i < run.count; ++i)
-      copy_point(scratch_, i, lattice_, row * spots_.size() + run.first + i);
+      copy_point(scratch_, i, lattice_, row * hits_ + run.first + i);
   }
 }
 
@@ -179,22 +179,23 @@ void HitGrid::take_footprints(std::span<const HitRay> hits) {
   v_stretch_.resize(n);
   u_.resize(3 * n);
   v_.resize(3 * n);
-  for (size_t i = 0; i < n; ++i) {
-    Footprint f = footprint_on(hits[i], spots_[i]);
-    float along_u = std::sqrt(f.ux * f.ux + f.uy * f.uy), along_v = std::sqrt(f.vx * f.vx + f.vy * f.vy);
-    // A ray that has no width in a direction still has derivatives there.
-    float step_u = along_u > 1e-9f ? along_u : kLeastStep, step_v = along_v > 1e-9f ? along_v : kLeastStep;
-    float sides[4] = {f.ux / step_u, f.vx / step_v, f.uy / step_u, f.vy / step_v};
-    for (size_t c = 0; c < 4; ++c)
-      footprint_[c][i] = sides[c];
-    float du = step_inside(u_[i], step_u), dv = step_inside(v_[i], step_v);
-    u_[n + i] = u_[i] + du;
-    v_[n + i] = v_[i];
-    u_[2 * n + i] = u_[i];
-    v_[2 * n + i] = v_[i] + dv;
-    u_stretch_[i] = step_u / du;
-    v_stretch_[i] = step_v / dv;
-  }
+  for (const Run& run : runs_)
+    for (size_t i = run.first; i < run.first + run.count; ++i) {
+      Footprint f = footprint_on(hits[i], in_camera(run.primitive->state->object_to_camera, lattice_, i));
+      float along_u = std::sqrt(f.ux * f.ux + f.uy * f.uy), along_v = std::sqrt(f.vx * f.vx + f.vy * f.vy);
+      // A ray that has no width in a direction still has derivatives there.
+      float step_u = along_u > 1e-9f ? along_u : kLeastStep, step_v = along_v > 1e-9f ? along_v : kLeastStep;
+      float sides[4] = {f.ux / step_u, f.vx / step_v, f.uy / step_u, f.vy / step_v};
+      for (size_t c = 0; c < 4; ++c)
+        footprint_[c][i] = sides[c];
+      float du = step_inside(u_[i], step_u), dv = step_inside(v_[i], step_v);
+      u_[n + i] = u_[i] + du;
+      v_[n + i] = v_[i];
+      u_[2 * n + i] = u_[i];
+      v_[2 * n + i] = v_[i] + dv;
+      u_stretch_[i] = step_u / du;
+      v_stretch_[i] = step_v / dv;
+    }
 }
 
 void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside, const DiceContext& context,
@@ -207,7 +208,7 @@ void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside
     u_[i] = hits[i].place.u;
     v_[i] = hits[i].place.v;
   }
-  spots_.resize(n);
+  hits_ = n;
   lattice_.resize(rows * n);
   for (const Run& run : runs_)
     find_spots(run, hits);
@@ -265,10 +266,13 @@ void HitGrid::set_steps(size_t n) {
   }
 }
 
-void HitGrid::aim(size_t lane) {
+/// I, from where each point's ray starts.
+void HitGrid::aim() {
+  const size_t pitch = grid.pitch();
   const float* P = grid.variable(Global::kP).data;
-  set_point(grid.varying(Global::kI), grid.pitch(), lane,
-            plane_point(P, grid.pitch(), lane) - origins_[lane]);
+  float* I = grid.varying(Global::kI);
+  for (size_t k = 0; k < grid.points(); ++k)
+    set_point(I, pitch, k, plane_point(P, pitch, k) - origins_[k]);
 }
 
 /// I, E and weights. A neighbour has the origin of the ray that would hit it.
@@ -289,8 +293,7 @@ void HitGrid::set_rays(std::span<const HitRay> hits) {
     origins_[n + i] = origin(vy, -vx);
     origins_[2 * n + i] = origin(-uy, ux);
   }
-  for (size_t k = 0; k < grid.points(); ++k)
-    aim(k);
+  aim();
   float eye[3] = {hits[0].origin.x, hits[0].origin.y, hits[0].origin.z};
   grid.set_uniform(Global::kE, eye);
   for (int c = 0; c < 3; ++c) {
@@ -318,9 +321,8 @@ void HitGrid::after_displacement(bool moved) {
         *Ng = grid.varying(Global::kNg);
   const slvm::Planes &du = grid.variable(Global::kdu), &dv = grid.variable(Global::kdv);
   float sign = grid.flip_normals ? -1.0f : 1.0f;
-  for (size_t k = 0; k < grid.points(); ++k) {
-    aim(k);
-    if (!grid.derivatives) continue;
+  aim();
+  for (size_t k = 0; k < grid.points() && grid.derivatives; ++k) {
     size_t i = k % n;
     Vec3 at = plane_point(P, pitch, i);
     Vec3 along_u = (plane_point(P, pitch, n + i) - at) / du.data[i];

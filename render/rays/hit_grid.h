@@ -65,14 +65,14 @@ private:
   void stretch(size_t hits);
   void set_steps(size_t hits);
   void set_rays(std::span<const HitRay> hits);
-  void aim(size_t lane);
+  void aim();
 
   std::deque<Primitive> moved_; ///< primitives as they are at the time of a ray
   std::vector<Run> runs_;
   std::vector<SurfacePoints> parts_;
-  std::vector<SurfaceSpot> spots_;
-  std::vector<float> u_, v_; ///< of all points
-  SurfaceLattice lattice_;   ///< of all points
+  size_t hits_ = 0;
+  std::vector<float> u_, v_;   ///< of all points
+  SurfaceLattice lattice_;     ///< of all points
   std::vector<uint32_t> open_; ///< hits that are not where their rays are yet, and where to look next:
   std::vector<float> next_u_, next_v_;
   std::vector<float> u_stretch_, v_stretch_; ///< of a hit: the wanted step by the one that is evaluated

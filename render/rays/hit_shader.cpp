@@ -424,9 +424,9 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
     worker.volumes.shade(context, grid, hits, [&](const slvm::Instance& v, std::span<const uint32_t> lanes) {
       take(context, grid, &v, From::kVolume, hits, outputs, lanes);
       take(context, grid, &v,
-           &v == set.atmosphere                                     ? From::kAtmosphere
+           &v == set.atmosphere                                      ? From::kAtmosphere
            : &v == set.interior || &v == batch.from.shaders.interior ? From::kInterior
-                                                                    : From::kExterior,
+                                                                     : From::kExterior,
            hits, outputs, lanes);
     });
   }

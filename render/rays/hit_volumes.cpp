@@ -20,8 +20,7 @@ float along_normal(const slvm::Grid& grid, size_t point, Vec3 direction) {
 
 std::vector<const slvm::Instance*> possible_volumes(const slvm::ShaderSet& from, const slvm::ShaderSet& hit) {
   std::vector<const slvm::Instance*> out;
-  for (const slvm::Instance* v :
-       {from.interior, from.exterior, hit.interior, hit.exterior, hit.atmosphere})
+  for (const slvm::Instance* v : {from.interior, from.exterior, hit.interior, hit.exterior, hit.atmosphere})
     if (v && std::find(out.begin(), out.end(), v) == out.end()) out.push_back(v);
   return out;
 }
@@ -32,8 +31,8 @@ void HitVolumes::find(const slvm::ShadingState& from, const slvm::ShaderSet& set
   const slvm::ShaderSet& shot = from.shaders;
   if (!shot.interior && !shot.exterior && !set.interior && !set.exterior) return;
   for (size_t i = 0; i < hits.size(); ++i) {
-    const slvm::Instance* v = along_normal(from.grid, hits[i].point, hits[i].direction) < 0 ? shot.interior
-                                                                                             : shot.exterior;
+    const slvm::Instance* v =
+        along_normal(from.grid, hits[i].point, hits[i].direction) < 0 ? shot.interior : shot.exterior;
     if (!v) v = along_normal(grid, i, hits[i].direction) > 0 ? set.interior : set.exterior;
     if (v) volumes_[i] = v;
   }

@@ -1,9 +1,9 @@
 // The volume that each ray went through last before it hit something: the shaders of Interior, Exterior and
 // Atmosphere, which change what is seen of the hit.
 //
-// A ray that leaves its surface to the inside goes through that surface's interior, else through its exterior.
-// Where there is none, the surface that is hit decides in the same way, by the side it is hit on. Where that
-// has none either, the air between is the Atmosphere of what is hit.
+// A ray that leaves its surface to the inside goes through that surface's interior, else through its
+// exterior. Where there is none, the surface that is hit decides in the same way, by the side it is hit on.
+// Where that has none either, the air between is the Atmosphere of what is hit.
 #pragma once
 
 #include "render/rays/hit_grid.h"

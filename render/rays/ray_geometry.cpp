@@ -69,6 +69,7 @@ void RayGeometry::make(Item& item) {
 
 /// The number of the primitive in the item whose face it is.
 size_t RayGeometry::part_of(const Item& item, uint32_t face) const {
+  if (item.primitives.size() == 1) return 0;
   auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), face);
   return static_cast<size_t>(after - item.first_face.begin()) - 1;
 }
@@ -77,11 +78,12 @@ SurfacePlace RayGeometry::place(const RayHit& hit) const {
   const Item& item = *items_[hit.item];
   size_t i = part_of(item, hit.face);
   FaceRate rate = item.rates[i];
-  auto face = static_cast<int>(hit.face - item.first_face[i]);
+  const uint32_t face = hit.face - item.first_face[i], row = face / static_cast<uint32_t>(rate.u);
   SurfacePlace out;
   out.primitive = item.primitives[i];
-  out.u = (static_cast<float>(face % rate.u) + hit.u) / static_cast<float>(rate.u);
-  out.v = (static_cast<float>(face / rate.u) + hit.v) / static_cast<float>(rate.v);
+  out.u =
+      (static_cast<float>(face - row * static_cast<uint32_t>(rate.u)) + hit.u) / static_cast<float>(rate.u);
+  out.v = (static_cast<float>(row) + hit.v) / static_cast<float>(rate.v);
   out.u = std::clamp(out.u, 0.0f, 1.0f);
   out.v = std::clamp(out.v, 0.0f, 1.0f);
   out.displaced = item.displaced[i];

@@ -84,8 +84,8 @@ private:
     std::vector<uint8_t> displaced; ///< of each primitive: its faces are those of the displaced surface
     Box bounds;
     std::unique_ptr<const RaySolid> solid; ///< that the primitives bound; null: none
-    uint32_t model = 0;           ///< the item whose faces these are: itself, or the first instance
-    Matrix4 to_camera, to_object; ///< of instances
+    uint32_t model = 0;                    ///< the item whose faces these are: itself, or the first instance
+    Matrix4 to_camera, to_object;          ///< of instances
     bool placed = false;
     std::mutex making;
     std::unique_ptr<const FaceScene> faces;
