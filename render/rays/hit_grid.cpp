@@ -42,15 +42,12 @@ SurfaceSpot in_camera(const Matrix4& to_camera, const SurfaceLattice& lattice, s
           transform_vector(to_camera, lattice.dPdv[k])};
 }
 
-Vec3 target_of(const HitRay& hit) {
-  return hit.origin + hit.direction * hit.distance;
-}
-
 /// Whether a point of the surface is the one below or above where the ray met the faces: it may be off them,
 /// as they are off the surface, but not beside.
-bool is_near(const PrimitiveState& state, const SurfaceLattice& lattice, size_t k, const HitRay& hit) {
-  const float most = kNearEnough * hit.distance;
-  Vec3 off = transform_point(state.camera_to_object, target_of(hit)) - lattice.P[k], N = lattice.N[k];
+bool is_near(const PrimitiveState& state, const SurfaceLattice& lattice, size_t k, Vec3 target,
+             float distance) {
+  const float most = kNearEnough * distance;
+  Vec3 off = transform_point(state.camera_to_object, target) - lattice.P[k], N = lattice.N[k];
   float along = glm::dot(off, N), length = glm::dot(N, N);
   Vec3 beside = transform_vector(state.object_to_camera, length > 0 ? off - N * (along / length) : off);
   return glm::dot(beside, beside) <= most * most;
@@ -71,19 +68,21 @@ float step_inside(float at, float wanted) {
 
 } // namespace
 
-Footprint footprint_on(const HitRay& ray, const SurfaceSpot& spot) {
-  Vec3 normal = glm::cross(spot.dPdu, spot.dPdv);
+Footprint footprint_on(const HitRays& rays, const HitRay& hit, const SurfaceSpot& spot) {
+  Vec3 normal = glm::cross(spot.dPdu, spot.dPdv), direction = rays.direction(hit);
   float length = glm::length(normal);
-  if (!ray.wide || !(length > 0)) return {};
+  if (!rays.wide() || !(length > 0)) return {};
   normal /= length;
-  float cosine = glm::dot(ray.direction, normal);
+  float cosine = glm::dot(direction, normal);
   if (std::abs(cosine) < kLeastCosine) cosine = std::copysign(kLeastCosine, cosine);
-  auto on_surface = [&](Vec3 origin, Vec3 direction) {
-    Vec3 d = origin + direction * ray.distance;
-    d -= ray.direction * (glm::dot(d, normal) / cosine);
+  auto on_surface = [&](Vec3 origin_change, Vec3 direction_change) {
+    Vec3 d = origin_change + direction_change * hit.distance;
+    d -= direction * (glm::dot(d, normal) / cosine);
     return nearest_combination(spot.dPdu, spot.dPdv, d);
   };
-  Vec2 x = on_surface(ray.origin_dx, ray.direction_dx), y = on_surface(ray.origin_dy, ray.direction_dy);
+  const slvm::RayBatch& b = rays.batch;
+  Vec2 x = on_surface(rays.at(b.origin_du, hit), rays.at(b.direction_du, hit)),
+       y = on_surface(rays.at(b.origin_dv, hit), rays.at(b.direction_dv, hit));
   return {x.x, x.y, y.x, y.y};
 }
 
@@ -110,7 +109,7 @@ UvPoints HitGrid::points(const Run& run, size_t row) const {
   return {std::span(u_).subspan(first, run.count), std::span(v_).subspan(first, run.count), true};
 }
 
-void HitGrid::find_spots(const Run& run, std::span<const HitRay> hits) {
+void HitGrid::find_spots(const Run& run, const HitRays& rays, std::span<const HitRay> hits) {
   const PrimitiveState& state = *run.primitive->state;
   run.primitive->geometry->evaluate(points(run, 0), scratch_);
   open_.clear();
@@ -118,14 +117,15 @@ void HitGrid::find_spots(const Run& run, std::span<const HitRay> hits) {
     size_t k = run.first + i;
     copy_point(scratch_, i, lattice_, k);
     // Where faces are displaced they tell nothing about the surface below.
-    if (!run.displaced && !is_near(state, lattice_, k, hits[k])) open_.push_back(static_cast<uint32_t>(k));
+    if (!run.displaced && !is_near(state, lattice_, k, rays.target(hits[k]), hits[k].distance))
+      open_.push_back(static_cast<uint32_t>(k));
   }
-  if (!open_.empty()) settle(run, hits);
+  if (!open_.empty()) settle(run, rays, hits);
 }
 
 /// Takes `open_` hits to the points of the surface that lie nearest to where their rays met the faces, which
 /// are a little off the surface, and their parameters off its.
-void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
+void HitGrid::settle(const Run& run, const HitRays& rays, std::span<const HitRay> hits) {
   constexpr int kRounds = 6;
   const Matrix4& m = run.primitive->state->object_to_camera;
   for (int round = 0; round < kRounds && !open_.empty(); ++round) {
@@ -133,7 +133,7 @@ void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
     next_v_.clear();
     std::erase_if(open_, [&](uint32_t k) {
       SurfaceSpot spot = in_camera(m, lattice_, k);
-      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, target_of(hits[k]) - spot.P);
+      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, rays.target(hits[k]) - spot.P);
       float longest = std::max(std::abs(step.x), std::abs(step.y));
       if (!(longest < kInfinity)) return true;
       if (longest > 0.5f) step *= 0.5f / longest;
@@ -148,14 +148,14 @@ void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
     size_t kept = 0;
     for (size_t i = 0; i < open_.size(); ++i) {
       uint32_t k = open_[i];
-      Vec3 target = target_of(hits[k]);
+      Vec3 target = rays.target(hits[k]);
       if (glm::distance(transform_point(m, scratch_.P[i]), target) >
           glm::distance(transform_point(m, lattice_.P[k]), target))
         continue;
       u_[k] = next_u_[i];
       v_[k] = next_v_[i];
       copy_point(scratch_, i, lattice_, k);
-      if (!is_near(*run.primitive->state, lattice_, k, hits[k])) open_[kept++] = k;
+      if (!is_near(*run.primitive->state, lattice_, k, target, hits[k].distance)) open_[kept++] = k;
     }
     open_.resize(kept);
   }
@@ -171,7 +171,7 @@ void HitGrid::evaluate_beside(const Run& run) {
 
 /// The footprint as two sides of a parallelogram becomes steps along u and along v, and its sides in these
 /// steps.
-void HitGrid::take_footprints(std::span<const HitRay> hits) {
+void HitGrid::take_footprints(const HitRays& rays, std::span<const HitRay> hits) {
   size_t n = hits.size();
   for (auto& plane : footprint_)
     plane.resize(n);
@@ -181,7 +181,8 @@ void HitGrid::take_footprints(std::span<const HitRay> hits) {
   v_.resize(3 * n);
   for (const Run& run : runs_)
     for (size_t i = run.first; i < run.first + run.count; ++i) {
-      Footprint f = footprint_on(hits[i], in_camera(run.primitive->state->object_to_camera, lattice_, i));
+      Footprint f =
+          footprint_on(rays, hits[i], in_camera(run.primitive->state->object_to_camera, lattice_, i));
       float along_u = std::sqrt(f.ux * f.ux + f.uy * f.uy), along_v = std::sqrt(f.vx * f.vx + f.vy * f.vy);
       // A ray that has no width in a direction still has derivatives there.
       float step_u = along_u > 1e-9f ? along_u : kLeastStep, step_v = along_v > 1e-9f ? along_v : kLeastStep;
@@ -198,8 +199,8 @@ void HitGrid::take_footprints(std::span<const HitRay> hits) {
     }
 }
 
-void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside, const DiceContext& context,
-                   const VarFilter& is_read) {
+void HitGrid::dice(const Scene& scene, const HitRays& rays, std::span<const HitRay> hits, bool beside,
+                   const DiceContext& context, const VarFilter& is_read) {
   const size_t n = hits.size(), rows = beside ? 3 : 1;
   find_runs(scene, hits);
   u_.resize(n);
@@ -211,9 +212,9 @@ void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside
   hits_ = n;
   lattice_.resize(rows * n);
   for (const Run& run : runs_)
-    find_spots(run, hits);
+    find_spots(run, rays, hits);
   grid.reset(static_cast<int>(n), static_cast<int>(rows));
-  if (beside) take_footprints(hits);
+  if (beside) take_footprints(rays, hits);
   parts_.clear();
   for (const Run& run : runs_) {
     if (beside) evaluate_beside(run);
@@ -231,7 +232,7 @@ void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside
       grid.footprint[c] = footprint_[c].data();
   }
   set_steps(n);
-  set_rays(hits);
+  set_rays(rays, hits);
 }
 
 /// Brings the neighbours, which were evaluated at another distance, to where they belong.
@@ -276,31 +277,33 @@ void HitGrid::aim() {
 }
 
 /// I, E and weights. A neighbour has the origin of the ray that would hit it.
-void HitGrid::set_rays(std::span<const HitRay> hits) {
+void HitGrid::set_rays(const HitRays& rays, std::span<const HitRay> hits) {
   size_t n = hits.size();
   origins_.resize(grid.points());
-  for (size_t i = 0; i < n; ++i) {
+  for (size_t i = 0; i < n; ++i)
+    origins_[i] = rays.origin(hits[i]);
+  for (size_t i = 0; i < n && grid.derivatives; ++i) {
     const HitRay& hit = hits[i];
-    origins_[i] = hit.origin;
-    if (!grid.derivatives) continue;
     float ux = footprint_[0][i], vx = footprint_[1][i], uy = footprint_[2][i], vy = footprint_[3][i];
     float determinant = ux * vy - uy * vx;
-    bool usable = std::abs(determinant) > 1e-6f;
+    bool usable = rays.wide() && std::abs(determinant) > 1e-6f;
     // One step along u is so many along x and y, by the inverse of the footprint.
     auto origin = [&](float x, float y) {
-      return usable ? hit.origin + (hit.origin_dx * x + hit.origin_dy * y) / determinant : hit.origin;
+      if (!usable) return origins_[i];
+      Vec3 dx = rays.at(rays.batch.origin_du, hit), dy = rays.at(rays.batch.origin_dv, hit);
+      return origins_[i] + (dx * x + dy * y) / determinant;
     };
     origins_[n + i] = origin(vy, -vx);
     origins_[2 * n + i] = origin(-uy, ux);
   }
   aim();
-  float eye[3] = {hits[0].origin.x, hits[0].origin.y, hits[0].origin.z};
+  float eye[3] = {origins_[0].x, origins_[0].y, origins_[0].z};
   grid.set_uniform(Global::kE, eye);
-  for (int c = 0; c < 3; ++c) {
+  for (int c = 0; c < 3 && !rays.weights.empty(); ++c) {
     auto& plane = weight_[static_cast<size_t>(c)];
     plane.resize(n);
     for (size_t i = 0; i < n; ++i)
-      plane[i] = hits[i].weight[c];
+      plane[i] = rays.weights[hits[i].ray][c];
     grid.ray.weight[c] = plane.data();
   }
 }

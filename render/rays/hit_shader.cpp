@@ -113,8 +113,8 @@ void store(const slvm::RayOutput& out, const slvm::Planes* from, std::span<const
   size_t planes = static_cast<size_t>(slvm::components(out.type)) * (out.elements ? out.elements : 1);
   auto one = [&](size_t i) {
     for (size_t c = 0; c < planes; ++c)
-      out.data[c * out.pitch + hits[i].ray] = from->get(c, i);
-    if (out.found) out.found[hits[i].ray] = 1;
+      out.data[c * out.pitch + hits[i].slot] = from->get(c, i);
+    if (out.found) out.found[hits[i].slot] = 1;
   };
   for (uint32_t i : lanes)
     one(i);
@@ -307,7 +307,7 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
       work = prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand);
     }
     for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == last; ++end)
-      if (work.apart && hits[end].origin != hits[first].origin) break;
+      if (work.apart && batch.rays.origin(hits[end]) != batch.rays.origin(hits[first])) break;
     shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand, work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }
@@ -385,8 +385,8 @@ void HitShader::take_attributes(const HitBatch& batch, const slvm::Grid& grid, c
     if (value.numbers.size() != planes || !fits(out, value.type, value.elements)) continue;
     for (const HitRay& hit : hits) {
       for (size_t c = 0; c < planes; ++c)
-        out.data[c * out.pitch + hit.ray] = value.numbers[c];
-      if (out.found) out.found[hit.ray] = 1;
+        out.data[c * out.pitch + hit.slot] = value.numbers[c];
+      if (out.found) out.found[hit.slot] = 1;
     }
   }
 }
@@ -396,7 +396,7 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
                            uint64_t id) {
   const slvm::ShaderSet& set = work.set;
   slvm::Grid& grid = worker.hits.grid;
-  worker.hits.dice(scene_, hits, work.beside, dice_, work.is_read);
+  worker.hits.dice(scene_, batch.rays, hits, work.beside, dice_, work.is_read);
   const float* weight[3] = {grid.ray.weight[0], grid.ray.weight[1], grid.ray.weight[2]};
   grid.ray = batch.facts;
   std::copy_n(weight, 3, grid.ray.weight);
@@ -420,8 +420,8 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
     shade_by_default(grid);
   take(context, grid, set.surface, From::kSurface, hits, outputs);
   if (!work.volumes.empty()) {
-    worker.volumes.find(batch.from, set, grid, hits);
-    worker.volumes.shade(context, grid, hits, [&](const slvm::Instance& v, std::span<const uint32_t> lanes) {
+    worker.volumes.find(batch.from, set, grid, batch.rays, hits);
+    worker.volumes.shade(context, grid, [&](const slvm::Instance& v, std::span<const uint32_t> lanes) {
       take(context, grid, &v, From::kVolume, hits, outputs, lanes);
       take(context, grid, &v,
            &v == set.atmosphere                                      ? From::kAtmosphere

@@ -16,6 +16,7 @@ namespace render {
 /// What is the same for all hits of a batch.
 struct HitBatch {
   const slvm::ShadingState& from; ///< whose rays they are
+  HitRays rays;
   slvm::RayKind kind = slvm::RayKind::kSpecular;
   slvm::HitMode mode = slvm::HitMode::kDefault;
   bool shades = true;   ///< false: shaders do not run

@@ -26,14 +26,15 @@ std::vector<const slvm::Instance*> possible_volumes(const slvm::ShaderSet& from,
 }
 
 void HitVolumes::find(const slvm::ShadingState& from, const slvm::ShaderSet& set, const slvm::Grid& grid,
-                      std::span<const HitRay> hits) {
+                      const HitRays& rays, std::span<const HitRay> hits) {
   volumes_.assign(hits.size(), set.atmosphere);
   const slvm::ShaderSet& shot = from.shaders;
   if (!shot.interior && !shot.exterior && !set.interior && !set.exterior) return;
   for (size_t i = 0; i < hits.size(); ++i) {
+    const Vec3 direction = rays.direction(hits[i]);
     const slvm::Instance* v =
-        along_normal(from.grid, hits[i].point, hits[i].direction) < 0 ? shot.interior : shot.exterior;
-    if (!v) v = along_normal(grid, i, hits[i].direction) > 0 ? set.interior : set.exterior;
+        along_normal(from.grid, hits[i].point, direction) < 0 ? shot.interior : shot.exterior;
+    if (!v) v = along_normal(grid, i, direction) > 0 ? set.interior : set.exterior;
     if (v) volumes_[i] = v;
   }
 }
@@ -45,9 +46,9 @@ void HitVolumes::keep(const slvm::Grid& grid, std::vector<float>& planes) const 
     to = std::copy_n(grid.variable(g).data, 3 * grid.pitch(), to);
 }
 
-void HitVolumes::shade(slvm::ShadingContext& context, slvm::Grid& grid, std::span<const HitRay> hits,
+void HitVolumes::shade(slvm::ShadingContext& context, slvm::Grid& grid,
                        const std::function<void(const slvm::Instance&, std::span<const uint32_t>)>& done) {
-  const size_t n = hits.size(), pitch = grid.pitch();
+  const size_t n = volumes_.size(), pitch = grid.pitch();
   grid.varying(Global::kCi);
   grid.varying(Global::kOi);
   bool same = std::all_of(volumes_.begin(), volumes_.end(), [&](auto* v) { return v == volumes_[0]; });

@@ -19,9 +19,9 @@ class HitVolumes {
 public:
   /// Finds the volume of each hit. `from`: who shot the rays; `set`, `grid`: what they hit.
   void find(const slvm::ShadingState& from, const slvm::ShaderSet& set, const slvm::Grid& grid,
-            std::span<const HitRay> hits);
+            const HitRays& rays, std::span<const HitRay> hits);
   /// Runs them on the grid, after its surface shader; `done` is told of each and of the hits it is for.
-  void shade(slvm::ShadingContext& context, slvm::Grid& grid, std::span<const HitRay> hits,
+  void shade(slvm::ShadingContext& context, slvm::Grid& grid,
              const std::function<void(const slvm::Instance&, std::span<const uint32_t> hits)>& done);
 
 private:

@@ -47,7 +47,9 @@ private:
   void trace_by(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
                 std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors);
   RaySegment segment(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&, size_t ray) const;
-  HitRay hit_ray(const Shooter&, const slvm::RayBatch&, size_t ray, const RaySegment&, const RayHit&);
+  HitRay hit_ray(const Shooter&, const slvm::RayBatch&, size_t ray, float time, const RayHit&);
+  /// Parts of the picture that rays make; empty: all of it.
+  std::vector<Color> weights(const Shooter&, const slvm::RayBatch&) const;
   void shade_layers(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
                     std::vector<struct LightPath>&);
 

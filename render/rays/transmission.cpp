@@ -109,12 +109,14 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
           continue;
         }
       }
-      HitRay hit = hit_ray(by, batch, path.ray, path.segment, layer);
-      hit.ray = static_cast<uint32_t>(path_of.size());
+      HitRay hit = hit_ray(by, batch, path.ray, path.segment.time, layer);
+      hit.slot = static_cast<uint32_t>(path_of.size());
       path_of.push_back(i);
       (opacity == RayOpacity::kShader ? to_shade : to_evaluate).push_back(hit);
     }
   }
+  const std::vector<Color> weight = weights(by, batch);
+  const HitRays rays{batch, weight};
   std::vector<float> values(3 * path_of.size());
   slvm::RayOutput out;
   out.type = slvm::Type::kColor;
@@ -123,10 +125,11 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
   uint64_t seed = hash_of(static_cast<int64_t>(by.seed), options.seed, kHits);
   out.from = slvm::RayOutput::From::kPrimitive;
   out.name = "Os";
-  hits_.shade(to_evaluate, {by.state, options.kind, options.mode, false, by.next, seed}, {&out, 1});
+  hits_.shade(to_evaluate, {by.state, rays, options.kind, options.mode, false, by.next, seed}, {&out, 1});
   out.from = slvm::RayOutput::From::kSurface;
   out.name = "Oi";
-  hits_.shade(to_shade, {by.state, options.kind, slvm::HitMode::kShader, true, by.next, seed}, {&out, 1});
+  hits_.shade(to_shade, {by.state, rays, options.kind, slvm::HitMode::kShader, true, by.next, seed},
+              {&out, 1});
   for (size_t k = 0; k < path_of.size(); ++k)
     for (int c = 0; c < 3; ++c)
       paths[path_of[k]].through[c] *= 1 - values[static_cast<size_t>(c) * out.pitch + k];

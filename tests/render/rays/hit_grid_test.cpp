@@ -45,15 +45,31 @@ RayFan sphere_mirror(float x, float y, float step) {
   return {Vec3(p), Vec3(d), Vec3(px - p), Vec3(py - p), Vec3(dx - d), Vec3(dy - d)};
 }
 
+/// Rays that are all the same, in the form the renderer has them in.
+struct FanBatch {
+  explicit FanBatch(const RayFan& fan, size_t count = 1) {
+    const Vec3 from[] = {fan.origin,    fan.direction,    fan.origin_dx,
+                         fan.origin_dy, fan.direction_dx, fan.direction_dy};
+    for (size_t k = 0; k < 6; ++k)
+      for (int c = 0; c < 3; ++c)
+        planes[k][c].assign(count, from[k][c]);
+    batch.count = count;
+    for (int c = 0; c < 3; ++c) {
+      batch.origin[c] = planes[0][c].data();
+      batch.direction[c] = planes[1][c].data();
+      batch.origin_du[c] = planes[2][c].data();
+      batch.origin_dv[c] = planes[3][c].data();
+      batch.direction_du[c] = planes[4][c].data();
+      batch.direction_dv[c] = planes[5][c].data();
+    }
+  }
+  std::vector<float> planes[6][3];
+  slvm::RayBatch batch;
+  HitRays rays{batch, {}};
+};
+
 HitRay hit_of(RayScene& s, const RayFan& fan) {
   HitRay hit;
-  hit.origin = fan.origin;
-  hit.direction = fan.direction;
-  hit.wide = true;
-  hit.origin_dx = fan.origin_dx;
-  hit.origin_dy = fan.origin_dy;
-  hit.direction_dx = fan.direction_dx;
-  hit.direction_dy = fan.direction_dy;
   hit.distance = s.distance({fan.origin, fan.direction});
   return hit;
 }
@@ -71,7 +87,7 @@ void expect_footprint(RayScene& s, const RayFan& fan, float tolerance) {
   };
   Vec2 at = uv_on_wall(fan.origin, fan.direction);
   // All of the wall's space is camera space.
-  Footprint f = footprint_on(hit, {Vec3(at * 40.0f - 20.0f, -2), {40, 0, 0}, {0, 40, 0}});
+  Footprint f = footprint_on(FanBatch(fan).rays, hit, {Vec3(at * 40.0f - 20.0f, -2), {40, 0, 0}, {0, 40, 0}});
   Vec2 x = uv_on_wall(fan.origin + fan.origin_dx, glm::normalize(fan.direction + fan.direction_dx)) - at;
   Vec2 y = uv_on_wall(fan.origin + fan.origin_dy, glm::normalize(fan.direction + fan.direction_dy)) - at;
   float size = std::max({std::abs(x.x), std::abs(x.y), std::abs(y.x), std::abs(y.y)});
@@ -108,7 +124,8 @@ TEST(HitGrid, neighbours_lie_where_neighbouring_rays_hit) {
   DiceContext context{&camera, &s.machine().strings(), 0, 0};
   HitGrid hits;
   std::vector<HitRay> list(3, hit);
-  hits.dice(s.scene(), list, true, context);
+  FanBatch batch(fan, 3);
+  hits.dice(s.scene(), batch.rays, list, true, context);
   slvm::Grid& g = hits.grid;
   ASSERT_EQ(g.nu(), 3);
   ASSERT_EQ(g.nv(), 3);
@@ -148,14 +165,10 @@ TEST(HitGrid, derivatives_at_the_edges_of_a_surface) {
   DiceContext context{&camera, &s.machine().strings(), 0, 0};
   HitRay hit;
   hit.place = {0, 1, 1, false};
-  hit.origin = {1, 1, 0};
-  hit.direction = {0, 0, 1};
   hit.distance = 5;
-  hit.wide = true;
-  hit.origin_dx = {0.25f, 0, 0};
-  hit.origin_dy = {0, 3, 0};
+  FanBatch batch({{1, 1, 0}, {0, 0, 1}, {0.25f, 0, 0}, {0, 3, 0}, Vec3(0.0f), Vec3(0.0f)});
   HitGrid hits;
-  hits.dice(s.scene(), {&hit, 1}, true, context);
+  hits.dice(s.scene(), batch.rays, {&hit, 1}, true, context);
   const slvm::Planes &u = hits.grid.variable(slvm::Global::ku), &v = hits.grid.variable(slvm::Global::kv);
   EXPECT_NEAR(u.get(0, 1), 1.25f, 1e-4f);
   EXPECT_NEAR(v.get(0, 2), 4, 1e-3f);
