@@ -42,7 +42,7 @@ Matrix4 scaled(Matrix4 m, float by) {
 
 /// From points to planes.
 template <class F> void transform_all(const Vec3* from, size_t count, Triple to, F&& transform) {
-  float *__restrict x = to.x, *__restrict y = to.y, *__restrict z = to.z;
+  float* __restrict x = to.x, * __restrict y = to.y, * __restrict z = to.z;
   for (size_t k = 0; k < count; ++k) {
     Vec3 p = transform(from[k]);
     x[k] = p.x;
@@ -95,9 +95,6 @@ private:
 
 void Dicer::set_geometry(const SurfaceLattice& lattice) {
   grid_.flip_normals = attributes_.flips_normals(first_.state->mirrored);
-  // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
-  // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
-  float sign = grid_.flip_normals == first_.state->mirrored ? 1.0f : -1.0f;
   Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN), Ng = triple(grid_, Global::kNg),
          dPdu = triple(grid_, Global::kdPdu), dPdv = triple(grid_, Global::kdPdv),
          I = triple(grid_, Global::kI);
@@ -113,7 +110,9 @@ void Dicer::set_geometry(const SurfaceLattice& lattice) {
                   v = scaled(m, 1 / (primitive.uv.v1 - primitive.uv.v0));
     each(lattice.dPdu, dPdu, [&](Vec3 d) { return transform_vector(u, d); });
     each(lattice.dPdv, dPdv, [&](Vec3 d) { return transform_vector(v, d); });
-    const Matrix4 n = scaled(inverse, sign);
+    // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
+    // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
+    const Matrix4 n = scaled(inverse, grid_.flip_normals == primitive.state->mirrored ? 1.0f : -1.0f);
     each(lattice.N, N, [&](Vec3 normal) { return normal_by(n, normal); });
   }
   const size_t points = grid_.points();
@@ -157,9 +156,21 @@ void Dicer::set_parameters() {
 }
 
 void Dicer::set_colours() {
-  const Color &c = attributes_.color, &o = attributes_.opacity;
-  grid_.set_uniform(Global::kCs, std::array{c.x, c.y, c.z});
-  grid_.set_uniform(Global::kOs, std::array{o.x, o.y, o.z});
+  for (auto [global, member] :
+       {std::pair(Global::kCs, &Attributes::color), std::pair(Global::kOs, &Attributes::opacity)}) {
+    auto of = [&, colour = member](const SurfacePoints& part) {
+      return part.primitive->attributes().*colour;
+    };
+    const Color first = of(parts_.front());
+    if (std::all_of(parts_.begin(), parts_.end(), [&](const SurfacePoints& p) { return of(p) == first; })) {
+      grid_.set_uniform(global, std::array{first.x, first.y, first.z});
+      continue;
+    }
+    Triple to = triple(grid_, global);
+    for (const SurfacePoints& part : parts_)
+      for (size_t k = part.first; k < part.first + part.at.size(); ++k)
+        to.set(k, of(part));
+  }
 }
 
 /// Object-space values to camera space, in place.

@@ -38,9 +38,10 @@ using VarFilter = std::function<bool(const std::string& name)>;
 
 /// Fills a grid with the points of `parts`, which together are all points it has; `lattice` is what the
 /// geometry of the primitives gives at each, by their numbers in the grid. du and dv are left to the caller.
-/// The primitives have the same attributes, the same object space and variables of the same names and kinds;
-/// constant ones have the same values, unless they replace predefined ones. Variables that replace nothing
-/// and that nobody reads are left out.
+/// The primitives are alike in all that is the same for a grid: texture coordinates, the side their normals
+/// are on, variables of the same names and kinds; constant ones have the same values, unless they replace
+/// predefined ones. "object" is the space of the first one, and attribute() tells of it. Variables that
+/// replace nothing and that nobody reads are left out.
 void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
                  const DiceContext& context, const VarFilter& is_read, slvm::Grid& grid);
 

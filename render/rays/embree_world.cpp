@@ -179,7 +179,7 @@ struct Query {
   }
   bool keeps(const RayCrossing& crossing) {
     if (needs_front || needs_back) {
-      bool front = crossing.forth == flipped;
+      bool front = (crossing.along < 0) != flipped;
       if (needs_front ? !front : front) return false;
     }
     if (behind && !is_behind(crossing.hit.distance, crossing.hit.face)) return false;
@@ -206,7 +206,7 @@ RayCrossing crossing_of(const Query& q, const RTCFilterFunctionNArguments* args)
   const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
   // Embree's normals of quadrilaterals are along (first side) x (last side).
   float along = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z;
-  return {{ray.tfar, q.item, hit.primID, hit.u, hit.v}, along >= 0};
+  return {{ray.tfar, q.item, hit.primID, hit.u, hit.v}, along};
 }
 
 void filter_hit(const RTCFilterFunctionNArguments* args) {

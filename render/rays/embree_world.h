@@ -70,7 +70,7 @@ struct RayHit {
 /// A face that a line goes through.
 struct RayCrossing {
   RayHit hit;
-  bool forth = false; ///< along (first side) x (last side)
+  float along = 0; ///< the ray's direction along (first side) x (last side), which is as long as the area
 };
 
 /// Gives the faces of items when they are wanted; called from many threads.

@@ -7,7 +7,7 @@ namespace render {
 
 namespace {
 
-/// Lines and cells of fewer steps are interpolated without a look at their middles.
+/// Lines and cells of fewer steps whose ends agree are interpolated without a look at their middles.
 constexpr int kVerified = 4;
 constexpr size_t kValues = HemisphereSample::kValues, kGradients = HemisphereSample::kGradients;
 
@@ -68,7 +68,7 @@ private:
     if (steps < 2) return;
     int middle = steps / 2, centre = first + stride * middle;
     bool near = can_interpolate(first, stride, steps);
-    if (near && steps < kVerified) {
+    if (near && steps < kVerified && agree(at(first), at(first + stride * steps))) {
       interpolate(first, stride, steps);
       return;
     }
@@ -142,7 +142,9 @@ private:
   void cell(int i0, int j0, int i1, int j1) {
     if (i1 - i0 < 2 || j1 - j0 < 2) return;
     if (cell_is_near(i0, j0, i1, j1)) {
-      if (std::min(i1 - i0, j1 - j0) < kVerified) {
+      const HemisphereSample& corner = at(j0 * p_.nu + i0);
+      if (std::min(i1 - i0, j1 - j0) < kVerified && agree(corner, at(j0 * p_.nu + i1)) &&
+          agree(corner, at(j1 * p_.nu + i0)) && agree(corner, at(j1 * p_.nu + i1))) {
         blend_cell({i0, j0, i1, j1}, nullptr);
         return;
       }

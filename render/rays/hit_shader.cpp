@@ -84,14 +84,16 @@ bool is_from(std::span<const slvm::RayOutput> outputs, std::initializer_list<Fro
   });
 }
 
-/// Whether results of a shader can depend on neighbouring points.
+/// Whether results of a shader can depend on neighbouring points, with the values its parameters have.
 bool differentiates(const slvm::Instance& instance) {
-  const slvm::Facts& f = instance.shader().program().facts;
-  if (f.derivatives || f.textures) return true;
-  // Rays that go on have footprints, too.
-  return f.rays && std::any_of(f.shadeops.begin(), f.shadeops.end(), [](const std::string& s) {
-           return s == "trace" || s == "gather" || s == "traverse";
-         });
+  const slvm::Program& p = instance.program();
+  return std::any_of(p.imports.begin(), p.imports.end(), [&](slvm::ShadeopId id) {
+    const slvm::ShadeopInfo& info = p.plugins.info(id);
+    if (!(info.flags & slvm::kDerivative)) return false;
+    // Rays that go on have footprints, too.
+    return !(info.flags & slvm::kRays) || info.name == "trace" || info.name == "gather" ||
+           info.name == "traverse";
+  });
 }
 
 /// Whether a shader reads a predefined variable (or else a parameter).
@@ -162,12 +164,14 @@ private:
 /// Which shaders have to run for the outputs.
 struct HitShader::Demand {
   bool displacement, surface, volumes;
+  bool attributes; ///< those of the objects themselves
 
   Demand(std::span<const slvm::RayOutput> outputs, bool shades) {
     volumes = shades && is_from(outputs, {From::kShaded, From::kVolume, From::kAtmosphere, From::kInterior,
                                           From::kExterior});
     surface = shades && (volumes || is_from(outputs, {From::kSurface}));
     displacement = surface || (shades && is_from(outputs, {From::kDisplacement}));
+    attributes = is_from(outputs, {From::kAttribute});
   }
 };
 
@@ -191,28 +195,73 @@ struct HitShader::Work {
 /// Numbers of groups by what makes them.
 struct HitShader::Groups {
   struct Key {
-    const Attributes* attributes;
-    std::array<float, 16> object;
+    /// Shaders and lights; or, where they may ask for more, whose attributes and which object space these
+    /// are.
+    std::vector<const void*> shading;
+    std::array<float, 16> object{};
+    std::array<float, 8> texture_coordinates;
+    bool flipped;
+    RayAttributes rays;
     std::string variables;
     auto operator<=>(const Key&) const = default;
   };
   std::map<Key, uint32_t> numbers;
 
-  static std::string variables_of(const Primitive& p) {
-    std::string out;
-    for (const PatchVar& var : p.vars) {
-      out += var.name;
-      out += static_cast<char>('a' + static_cast<int>(var.type));
-      out += std::to_string(var.elements);
-      out += static_cast<char>('0' + static_cast<int>(var.interpolation));
-      if (var.interpolation != Interpolation::kConstant || replaced_variable(var) != Global::kCount) continue;
-      out.append(reinterpret_cast<const char*>(var.values.data()), var.values.size() * sizeof(float));
-      for (const std::string& s : var.strings)
-        out += s + '\0';
-    }
-    return out;
-  }
+  static Key key_of(const Primitive& p, const BoundAttributes& bound);
+  static std::string variables_of(const Primitive& p);
 };
+
+namespace {
+
+/// Whether a shader can tell one object from another by more than what its points are given.
+bool looks_at_object(const slvm::Instance* instance) {
+  if (!instance) return false;
+  const slvm::Program& p = instance->program();
+  auto has = [](const auto& list, auto&& what) { return std::any_of(list.begin(), list.end(), what); };
+  return has(p.imports,
+             [&](slvm::ShadeopId id) {
+               return p.plugins.find(id) || p.plugins.info(id).name == "attribute";
+             }) ||
+         has(p.strings, [](const std::string& s) { return s == "object"; }) ||
+         has(p.slots, [](const slvm::Slot& s) { return s.type == slvm::Type::kString; });
+}
+
+} // namespace
+
+HitShader::Groups::Key HitShader::Groups::key_of(const Primitive& p, const BoundAttributes& bound) {
+  const Attributes& a = p.attributes();
+  Key key;
+  const slvm::ShaderSet& set = bound.shaders;
+  std::vector<const slvm::Instance*> all{set.displacement, set.surface, set.atmosphere, set.interior,
+                                         set.exterior};
+  all.insert(all.end(), bound.lights.begin(), bound.lights.end());
+  if (!a.scoped_spaces.empty() || std::any_of(all.begin(), all.end(), looks_at_object)) {
+    key.shading = {&a};
+    key.object = p.state->object_to_camera.m;
+  } else {
+    key.shading.assign(all.begin(), all.end());
+  }
+  key.texture_coordinates = a.texture_coordinates;
+  key.flipped = a.flips_normals(p.state->mirrored);
+  key.rays = a.rays;
+  key.variables = variables_of(p);
+  return key;
+}
+
+std::string HitShader::Groups::variables_of(const Primitive& p) {
+  std::string out;
+  for (const PatchVar& var : p.vars) {
+    out += var.name;
+    out += static_cast<char>('a' + static_cast<int>(var.type));
+    out += std::to_string(var.elements);
+    out += static_cast<char>('0' + static_cast<int>(var.interpolation));
+    if (var.interpolation != Interpolation::kConstant || replaced_variable(var) != Global::kCount) continue;
+    out.append(reinterpret_cast<const char*>(var.values.data()), var.values.size() * sizeof(float));
+    for (const std::string& s : var.strings)
+      out += s + '\0';
+  }
+  return out;
+}
 
 HitShader::HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
                      const BoundShaders& shaders, slvm::RendererServices& services)
@@ -254,7 +303,7 @@ uint32_t HitShader::group_of(uint32_t primitive) {
   uint32_t& known = group_[primitive];
   if (known) return known;
   const Primitive& p = scene_.primitives[primitive];
-  Groups::Key key{&p.attributes(), p.state->object_to_camera.m, Groups::variables_of(p)};
+  Groups::Key key = Groups::key_of(p, *shaders_.find(&p.attributes()));
   auto [it, is_new] = groups_->numbers.try_emplace(std::move(key), 0);
   // The first primitive of the group: a number that does not depend on what was hit first is not needed, as
   // the order of groups changes no result; that all points of a grid are of one group does.
@@ -306,8 +355,11 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
       last = group(first);
       work = prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand);
     }
-    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == last; ++end)
+    auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
+    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == last; ++end) {
       if (work.apart && batch.rays.origin(hits[end]) != batch.rays.origin(hits[first])) break;
+      if (demand.attributes && state(hits[end]) != state(hits[first])) break;
+    }
     shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand, work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }

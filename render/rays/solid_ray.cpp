@@ -10,9 +10,11 @@ namespace render {
 
 namespace {
 
-/// Two faces of a primitive crossed in the same sense nearer than this part of the distance are one at the
-/// edge between them.
+/// Faces of a primitive crossed nearer to each other than this part of the distance are crossed at the edge
+/// or corner between them.
 constexpr float kSamePlace = 2e-6f;
+/// Faces so much smaller than others there are what rounding left of collapsed ones.
+constexpr float kSliver = 1e-3f;
 
 bool contains(const Box& box, Vec3 p) {
   return glm::all(glm::lessThanEqual(box.min, p)) && glm::all(glm::lessThanEqual(p, box.max));
@@ -35,22 +37,28 @@ std::vector<uint32_t> RayGeometry::bounding(uint32_t index, Vec3 origin,
   auto node_of = [&](uint32_t k) { return solid.node[part_of(item, crossings[k].hit.face)]; };
   SolidHits hits;
   std::vector<uint32_t> numbers; // of what is in `hits`
-  for (uint32_t k : order) {
-    const RayCrossing& c = crossings[k];
-    SolidTree::NodeIndex node = node_of(k);
-    bool again = false;
-    for (size_t i = numbers.size(); i-- > 0 && !again;) {
-      const RayCrossing& before = crossings[numbers[i]];
-      if (c.hit.distance - before.hit.distance > kSamePlace * c.hit.distance) break;
-      again = before.forth == c.forth && node_of(numbers[i]) == node;
+  std::vector<uint8_t> done(order.size());
+  for (size_t first = 0; first < order.size(); ++first) {
+    if (done[first]) continue;
+    const float distance = crossings[order[first]].hit.distance;
+    const SolidTree::NodeIndex node = node_of(order[first]);
+    float forth = 0, back = 0;
+    uint32_t largest = order[first];
+    for (size_t i = first; i < order.size(); ++i) {
+      const RayCrossing& c = crossings[order[i]];
+      if (c.hit.distance - distance > kSamePlace * distance) break;
+      if (node_of(order[i]) != node) continue;
+      done[i] = 1;
+      (c.along >= 0 ? forth : back) += std::abs(c.along);
+      if (std::abs(c.along) > std::abs(crossings[largest].along)) largest = order[i];
     }
-    if (again) continue;
+    if (std::min(forth, back) > kSliver * std::max(forth, back)) continue; // the ray only touches it there
     SolidHit hit{};
-    hit.z = c.hit.distance;
+    hit.z = crossings[largest].hit.distance;
     hit.primitive = node;
     hit.cut_near = contains(solid.bounds[node], origin);
     hits.add(hit);
-    numbers.push_back(k);
+    numbers.push_back(largest);
   }
   std::vector<uint32_t> out;
   hits.resolve(*solid.tree, [&](size_t i, const SolidHit&) { out.push_back(numbers[i]); });
