@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <unordered_map>
 
 namespace render {
 
@@ -311,33 +312,47 @@ uint32_t HitShader::group_of(uint32_t primitive) {
   return known = it->second;
 }
 
-/// By group, then primitive, then ray. Groups are in the order of their first hits here, whatever their
-/// numbers.
+/// By group, then primitive, then ray; groups and primitives in the order of their first hits here, whatever
+/// their numbers.
 void HitShader::sort(std::vector<HitRay>& hits) {
-  struct Key {
-    uint32_t order, primitive, index;
-    auto operator<=>(const Key&) const = default;
+  struct Bucket { // hits of one primitive
+    uint32_t group, first = 0, count = 0;
   };
-  std::vector<Key> keys(hits.size());
+  std::vector<Bucket> buckets;
+  std::vector<uint32_t> bucket_of(hits.size());
   {
-    std::map<uint32_t, uint32_t> orders; // of groups
-    uint32_t group = 0, order = 0;
+    std::unordered_map<uint32_t, uint32_t> of_primitive;
+    uint32_t last = 0, bucket = 0;
     std::lock_guard lock(groups_mutex_);
-    for (uint32_t i = 0; i < hits.size(); ++i) {
-      uint32_t primitive = hits[i].place.primitive;
-      if (uint32_t g = group_of(primitive); g != group) {
-        group = g;
-        order = orders.try_emplace(g, static_cast<uint32_t>(orders.size())).first->second;
+    for (size_t i = 0; i < hits.size(); ++i) {
+      const uint32_t primitive = hits[i].place.primitive;
+      if (i == 0 || primitive != last) {
+        last = primitive;
+        auto [it, is_new] = of_primitive.try_emplace(primitive, static_cast<uint32_t>(buckets.size()));
+        bucket = it->second;
+        if (is_new) buckets.push_back({group_of(primitive)});
       }
-      keys[i] = {order, primitive, i};
+      bucket_of[i] = bucket;
+      ++buckets[bucket].count;
     }
   }
-  if (std::is_sorted(keys.begin(), keys.end())) return;
-  std::sort(keys.begin(), keys.end());
-  std::vector<HitRay> sorted;
-  sorted.reserve(hits.size());
-  for (const Key& key : keys)
-    sorted.push_back(hits[key.index]);
+  if (buckets.size() == 1) return;
+  std::vector<std::vector<uint32_t>> of_group;
+  std::unordered_map<uint32_t, size_t> number_of_group;
+  for (uint32_t k = 0; k < buckets.size(); ++k) {
+    size_t number = number_of_group.try_emplace(buckets[k].group, of_group.size()).first->second;
+    if (number == of_group.size()) of_group.emplace_back();
+    of_group[number].push_back(k);
+  }
+  uint32_t place = 0;
+  for (const auto& group : of_group)
+    for (uint32_t k : group) {
+      buckets[k].first = place;
+      place += buckets[k].count;
+    }
+  std::vector<HitRay> sorted(hits.size());
+  for (size_t i = 0; i < hits.size(); ++i)
+    sorted[buckets[bucket_of[i]].first++] = hits[i];
   hits = std::move(sorted);
 }
 
