@@ -1,6 +1,8 @@
 // Quadrics. A profile knows its point and derivative at v and a bound for a range of v; Quadric turns it.
 #include "render/prims/quadrics.h"
 
+#include "slvm/support/turn.h"
+
 #include <cmath>
 
 namespace render {
@@ -35,8 +37,8 @@ struct ProfilePoint {
 struct SphereProfile {
   float radius, phimin, phimax;
   ProfilePoint at(float v) const {
-    float d = phimax - phimin, phi = phimin + v * d;
-    float c = std::cos(phi), s = std::sin(phi);
+    float d = phimax - phimin, c, s;
+    slvm::sine_and_cosine((phimin + v * d) / (2 * kPi), s, c);
     return {{radius * c, 0, radius * s}, {-radius * s * d, 0, radius * c * d}};
   }
   ProfileRange range(float v0, float v1) const {
@@ -113,32 +115,70 @@ public:
 
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
     out.resize(at.size());
-    auto column = [&](float u) { return Vec2(std::cos(u * thetamax_), std::sin(u * thetamax_)); };
-    auto row = [&](float v) {
-      ProfilePoint p = profile_.at(v);
-      return Row{p, profile_normal(p, v)};
-    };
-    at.for_each(column, row, [&](size_t k, Vec2 t, const Row& r) {
-      auto turn = [&](Vec3 w) { return Vec3(w.x * t.x - w.y * t.y, w.x * t.y + w.y * t.x, w.z); };
-      out.P[k] = turn(r.point.q);
-      out.dPdu[k] = turn({-r.point.q.y * thetamax_, r.point.q.x * thetamax_, 0});
-      out.dPdv[k] = turn(r.point.dq);
-      out.N[k] = turn(r.normal);
+    Block block;
+    size_t count = 0;
+    at.for_each([&](size_t k, float u, float v) {
+      block.u[count] = u;
+      block.v[count] = v;
+      if (++count < kBlock) return;
+      evaluate(block, count, k + 1 - count, out);
+      count = 0;
     });
+    if (count > 0) evaluate(block, count, at.size() - count, out);
   }
 
 private:
-  struct Row {
-    ProfilePoint point;
-    Vec3 normal;
+  /// Points worked on together, component by component, so that the compiler vectorises the loops.
+  static constexpr size_t kBlock = 64;
+  struct Block {
+    float u[kBlock] = {}, v[kBlock] = {};
+    float sine[kBlock], cosine[kBlock]; ///< of the turn
+    float q[3][kBlock], dq[3][kBlock], n[3][kBlock], length[kBlock];
   };
+
+  void evaluate(Block& b, size_t count, size_t first, SurfaceLattice& out) const {
+    const float turn = thetamax_ / (2 * kPi), sign = thetamax_ < 0 ? -1.0f : 1.0f;
+    const size_t whole = (count + 3) / 4 * 4; // vectors
+    for (size_t i = 0; i < whole; ++i)
+      slvm::sine_and_cosine(b.u[i] * turn, b.sine[i], b.cosine[i]);
+    for (size_t i = 0; i < whole; ++i) {
+      const ProfilePoint p = profile_.at(b.v[i]);
+      for (int c = 0; c < 3; ++c) {
+        b.q[c][i] = p.q[c];
+        b.dq[c][i] = p.dq[c];
+      }
+    }
+    // (-qy, qx, 0) x dq
+    for (size_t i = 0; i < whole; ++i) {
+      const float x = b.q[0][i] * b.dq[2][i], y = b.q[1][i] * b.dq[2][i],
+                  z = -(b.q[0][i] * b.dq[0][i] + b.q[1][i] * b.dq[1][i]);
+      b.length[i] = std::sqrt(x * x + y * y + z * z);
+      const float scale = sign / b.length[i];
+      b.n[0][i] = x * scale;
+      b.n[1][i] = y * scale;
+      b.n[2][i] = z * scale;
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3 q(b.q[0][i], b.q[1][i], b.q[2][i]), dq(b.dq[0][i], b.dq[1][i], b.dq[2][i]);
+      Vec3 n(b.n[0][i], b.n[1][i], b.n[2][i]);
+      if (!(q.x * q.x + q.y * q.y >= kOnAxis * glm::dot(dq, dq) && b.length[i] > 0))
+        n = normal_at_axis(dq, b.v[i]);
+      const float s = b.sine[i], c = b.cosine[i];
+      auto turned = [&](Vec3 w) { return Vec3(w.x * c - w.y * s, w.x * s + w.y * c, w.z); };
+      out.P[first + i] = turned(q);
+      out.dPdu[first + i] = turned({-q.y * thetamax_, q.x * thetamax_, 0});
+      out.dPdv[first + i] = turned(dq);
+      out.N[first + i] = turned(n);
+    }
+  }
+
+  /// Squared distance from the axis, by the square of dPdv, at which dPdu has no direction.
+  static constexpr float kOnAxis = 1e-8f;
+
   /// dPdu x dPdv at theta 0, with the direction of dPdu that a point a little off the axis has.
-  Vec3 profile_normal(const ProfilePoint& p, float v) const {
-    Vec2 q(p.q);
-    if (glm::dot(q, q) < 1e-8f * glm::dot(p.dq, p.dq))
-      q = Vec2(profile_.at(v < 0.5f ? v + 1e-3f : v - 1e-3f).q);
-    Vec3 tangent(-q.y, q.x, 0);
-    Vec3 n = glm::cross(tangent, p.dq) * (thetamax_ < 0 ? -1.0f : 1.0f);
+  Vec3 normal_at_axis(Vec3 dq, float v) const {
+    const Vec3 q = profile_.at(v < 0.5f ? v + 1e-3f : v - 1e-3f).q;
+    Vec3 n = glm::cross(Vec3(-q.y, q.x, 0), dq) * (thetamax_ < 0 ? -1.0f : 1.0f);
     float length = glm::length(n);
     return length > 0 ? n / length : Vec3(0, 0, 1);
   }

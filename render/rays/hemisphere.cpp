@@ -55,7 +55,8 @@ bool is_usable(const HemispherePoint& p) {
 class RayTracer::HemisphereRun {
 public:
   HemisphereRun(RayTracer& tracer, const slvm::ShadingState& state, const slvm::HemisphereQuery& query)
-      : tracer_(tracer), grid_(state.grid), query_(query), attributes_(tracer.attributes_of(grid_)),
+      : tracer_(tracer), state_(state), grid_(state.grid), query_(query),
+        attributes_(tracer.attributes_of(grid_)),
         max_error_(query.max_error >= 0 ? query.max_error : attributes_.max_error),
         most_pixels_(query.max_pixel_distance >= 0 ? query.max_pixel_distance
                                                    : attributes_.max_pixel_distance),
@@ -65,6 +66,7 @@ public:
         sampler_(tracer, state, query, max_error_ > 0 && whole_), mask_(query.points / 64 + 1) {}
 
   std::string run() {
+    check_space();
     const bool interpolates = max_error_ > 0 && whole_;
     for (size_t i = 0; i < asked_; ++i) {
       HemispherePoint p = point_of(query_, i);
@@ -82,12 +84,22 @@ public:
       fill_between();
     else
       look_up();
-    return sampler_.problem();
+    return sampler_.problem().empty() ? space_problem_ : sampler_.problem();
   }
 
 private:
   /// Smaller grids are too small to be interpolated in themselves.
   static constexpr size_t kFewestOfLattice = 64;
+
+  /// Samples are kept for a frame, in which nothing moves: in one space as in another. It must exist, though.
+  void check_space() {
+    const std::string_view name = query_.cache_space;
+    Matrix4 unused;
+    if (name.empty() || name == "current" || name == "object" || name == "shader" ||
+        tracer_.services_.current_to_space(state_, name, unused))
+      return;
+    space_problem_ = "there is no coordinate system \"" + std::string(name) + "\"";
+  }
 
   bool wanted(size_t i) const { return mask_[i / 64] >> (i % 64) & 1; }
   /// Also for the neighbours of a hit.
@@ -150,6 +162,7 @@ private:
   }
 
   RayTracer& tracer_;
+  const slvm::ShadingState& state_;
   const slvm::Grid& grid_;
   const slvm::HemisphereQuery& query_;
   const RayAttributes& attributes_;
@@ -159,6 +172,7 @@ private:
   HemisphereSampler sampler_;
   std::vector<HemispherePoint> points_;
   std::vector<uint64_t> mask_; ///< of points that rays are shot for
+  std::string space_problem_;
 };
 
 std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::HemisphereQuery& query) {

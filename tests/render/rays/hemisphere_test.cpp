@@ -437,6 +437,43 @@ TEST(Hemisphere, hits_of_rays_share_samples) {
   }
 }
 
+TEST(Hemisphere, origins_are_spread_over_the_element) {
+  // An element of side 2 about the origin, of which x < 0 lies under a plane as good as without end.
+  RayScene s(world("Polygon \"P\" [-999 .02 -999 0 .02 -999 0 .02 999 -999 .02 999]"));
+  std::vector<float> along_u[3], along_v[3], base{0};
+  Ask ask(s);
+  ask.query.samples = 1024;
+  for (int c = 0; c < 3; ++c) {
+    along_u[c] = {c == 0 ? 2.0f : 0.0f};
+    along_v[c] = {c == 2 ? 2.0f : 0.0f};
+    ask.query.along_u[c] = along_u[c].data();
+    ask.query.along_v[c] = along_v[c].data();
+  }
+  ask.query.sample_base = base.data();
+  EXPECT_NEAR(ask.at({-0.5f, 0, 0}, {0, 1, 0}), 1, 1e-2f);
+  EXPECT_NEAR(ask.at({0.5f, 0, 0}, {0, 1, 0}), 0, 2e-2f);
+  base = {1};
+  EXPECT_NEAR(ask.at({0.5f, 0, 0}, {0, 1, 0}), 0.25f, 0.03f);
+  EXPECT_NEAR(ask.at({-0.5f, 0, 0}, {0, 1, 0}), 0.75f, 0.03f);
+  base = {0.5f};
+  EXPECT_NEAR(ask.at({0.25f, 0, 0}, {0, 1, 0}), 0.25f, 0.03f);
+}
+
+TEST(Hemisphere, the_space_samples_are_kept_in_must_exist) {
+  RayScene s(world("CoordinateSystem \"here\" Sphere 1 -1 1 360"));
+  for (const char* space : {"", "here", "world", "object", "current"}) {
+    Ask ask(s);
+    ask.query.cache_space = space;
+    ask.place(0, {0, 0, 5}, {0, 0, -1});
+    EXPECT_EQ(ask.run().problem, "") << space;
+  }
+  Ask ask(s);
+  ask.query.cache_space = "nowhere";
+  ask.place(0, {0, 0, 5}, {0, 0, -1});
+  EXPECT_EQ(ask.run().problem, "there is no coordinate system \"nowhere\"");
+  EXPECT_GT(ask.occlusion[0], 0) << "the result is there all the same";
+}
+
 TEST(Hemisphere, points_that_are_off_or_broken) {
   RayScene s(world("Translate 0 1.1 6 Sphere .5 -.5 .5 360"));
   for (float max_error : {0.0f, 0.5f}) {
