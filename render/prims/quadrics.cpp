@@ -115,61 +115,85 @@ public:
 
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
     out.resize(at.size());
-    Block block;
-    size_t count = 0;
-    at.for_each([&](size_t k, float u, float v) {
-      block.u[count] = u;
-      block.v[count] = v;
-      if (++count < kBlock) return;
-      evaluate(block, count, k + 1 - count, out);
-      count = 0;
-    });
-    if (count > 0) evaluate(block, count, at.size() - count, out);
+    const size_t width = at.u.size(), height = at.v.size();
+    Columns columns;
+    Rows rows;
+    auto block = [](size_t first, size_t all) { return std::min(kBlock, all - first); };
+    if (at.paired) {
+      for (size_t k = 0; k < width; k += kBlock) {
+        const size_t count = block(k, width);
+        turn(at.u.data() + k, count, columns);
+        find_profile(at.v.data() + k, count, rows);
+        for (size_t i = 0; i < count; ++i)
+          set(columns, i, rows, i, k + i, out);
+      }
+      return;
+    }
+    for (size_t v = 0; v < height; v += kBlock) {
+      find_profile(at.v.data() + v, block(v, height), rows);
+      for (size_t u = 0; u < width; u += kBlock) {
+        turn(at.u.data() + u, block(u, width), columns);
+        for (size_t j = 0; j < block(v, height); ++j)
+          for (size_t i = 0; i < block(u, width); ++i)
+            set(columns, i, rows, j, (v + j) * width + u + i, out);
+      }
+    }
   }
 
 private:
-  /// Points worked on together, component by component, so that the compiler vectorises the loops.
+  /// What columns and rows are worked out for together, component by component: loops that compilers
+  /// vectorise.
   static constexpr size_t kBlock = 64;
-  struct Block {
-    float u[kBlock] = {}, v[kBlock] = {};
-    float sine[kBlock], cosine[kBlock]; ///< of the turn
-    float q[3][kBlock], dq[3][kBlock], n[3][kBlock], length[kBlock];
+  struct Columns {
+    float sine[kBlock], cosine[kBlock];
+  };
+  struct Rows { ///< at theta 0
+    float q[3][kBlock], dq[3][kBlock], n[3][kBlock];
   };
 
-  void evaluate(Block& b, size_t count, size_t first, SurfaceLattice& out) const {
-    const float turn = thetamax_ / (2 * kPi), sign = thetamax_ < 0 ? -1.0f : 1.0f;
-    const size_t whole = (count + 3) / 4 * 4; // vectors
-    for (size_t i = 0; i < whole; ++i)
-      slvm::sine_and_cosine(b.u[i] * turn, b.sine[i], b.cosine[i]);
-    for (size_t i = 0; i < whole; ++i) {
-      const ProfilePoint p = profile_.at(b.v[i]);
+  void turn(const float* u, size_t count, Columns& out) const {
+    const float turns = thetamax_ / (2 * kPi);
+    for (size_t i = 0; i < count; ++i)
+      slvm::sine_and_cosine(u[i] * turns, out.sine[i], out.cosine[i]);
+  }
+
+  void find_profile(const float* v, size_t count, Rows& out) const {
+    for (size_t i = 0; i < count; ++i) {
+      const ProfilePoint p = profile_.at(v[i]);
       for (int c = 0; c < 3; ++c) {
-        b.q[c][i] = p.q[c];
-        b.dq[c][i] = p.dq[c];
+        out.q[c][i] = p.q[c];
+        out.dq[c][i] = p.dq[c];
       }
     }
-    // (-qy, qx, 0) x dq
-    for (size_t i = 0; i < whole; ++i) {
-      const float x = b.q[0][i] * b.dq[2][i], y = b.q[1][i] * b.dq[2][i],
-                  z = -(b.q[0][i] * b.dq[0][i] + b.q[1][i] * b.dq[1][i]);
-      b.length[i] = std::sqrt(x * x + y * y + z * z);
-      const float scale = sign / b.length[i];
-      b.n[0][i] = x * scale;
-      b.n[1][i] = y * scale;
-      b.n[2][i] = z * scale;
+    const float sign = thetamax_ < 0 ? -1.0f : 1.0f;
+    float length[kBlock];
+    for (size_t i = 0; i < count; ++i) { // dPdu x dPdv: (-qy, qx, 0) x dq
+      const float x = out.q[0][i] * out.dq[2][i], y = out.q[1][i] * out.dq[2][i],
+                  z = -(out.q[0][i] * out.dq[0][i] + out.q[1][i] * out.dq[1][i]);
+      length[i] = std::sqrt(x * x + y * y + z * z);
+      const float scale = sign / length[i];
+      out.n[0][i] = x * scale;
+      out.n[1][i] = y * scale;
+      out.n[2][i] = z * scale;
     }
     for (size_t i = 0; i < count; ++i) {
-      const Vec3 q(b.q[0][i], b.q[1][i], b.q[2][i]), dq(b.dq[0][i], b.dq[1][i], b.dq[2][i]);
-      Vec3 n(b.n[0][i], b.n[1][i], b.n[2][i]);
-      if (!(q.x * q.x + q.y * q.y >= kOnAxis * glm::dot(dq, dq) && b.length[i] > 0))
-        n = normal_at_axis(dq, b.v[i]);
-      const float s = b.sine[i], c = b.cosine[i];
-      auto turned = [&](Vec3 w) { return Vec3(w.x * c - w.y * s, w.x * s + w.y * c, w.z); };
-      out.P[first + i] = turned(q);
-      out.dPdu[first + i] = turned({-q.y * thetamax_, q.x * thetamax_, 0});
-      out.dPdv[first + i] = turned(dq);
-      out.N[first + i] = turned(n);
+      const float off = out.q[0][i] * out.q[0][i] + out.q[1][i] * out.q[1][i];
+      const Vec3 dq(out.dq[0][i], out.dq[1][i], out.dq[2][i]);
+      if (off >= kOnAxis * glm::dot(dq, dq) && length[i] > 0) continue;
+      const Vec3 n = normal_at_axis(dq, v[i]);
+      for (int c = 0; c < 3; ++c)
+        out.n[c][i] = n[c];
     }
+  }
+
+  void set(const Columns& columns, size_t i, const Rows& rows, size_t j, size_t k,
+           SurfaceLattice& out) const {
+    const float s = columns.sine[i], c = columns.cosine[i];
+    auto turned = [&](float x, float y, float z) { return Vec3(x * c - y * s, x * s + y * c, z); };
+    out.P[k] = turned(rows.q[0][j], rows.q[1][j], rows.q[2][j]);
+    out.dPdu[k] = turned(-rows.q[1][j] * thetamax_, rows.q[0][j] * thetamax_, 0);
+    out.dPdv[k] = turned(rows.dq[0][j], rows.dq[1][j], rows.dq[2][j]);
+    out.N[k] = turned(rows.n[0][j], rows.n[1][j], rows.n[2][j]);
   }
 
   /// Squared distance from the axis, by the square of dPdv, at which dPdu has no direction.

@@ -181,9 +181,10 @@ struct HitShader::Work {
   const Primitive* primitive = nullptr;
   slvm::ShaderSet set; ///< those that run
   std::vector<const slvm::Instance*> volumes;
-  bool plain = false;  ///< no shader runs: the look of the primitive
-  bool beside = false; ///< somebody differentiates
-  bool apart = false;  ///< E is read: hits of rays from different places cannot be shaded together
+  bool plain = false;       ///< no shader runs: the look of the primitive
+  bool beside = false;      ///< somebody differentiates
+  bool done_beside = false; ///< nobody differentiates what the surface shader leaves behind
+  bool apart = false;       ///< E is read: hits of rays from different places cannot be shaded together
   VarFilter is_read;
 
   template <class F> bool any_shader(F&& f) const {
@@ -390,9 +391,11 @@ HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& b
   if (!demand.displacement || w.plain) w.set.displacement = nullptr;
   if (!demand.surface || w.plain) w.set.surface = nullptr;
   if (demand.volumes && !w.plain) w.volumes = possible_volumes(batch.from.shaders, w.set);
-  w.beside = w.any_shader(differentiates) ||
-             (w.set.surface && std::any_of(bound.lights.begin(), bound.lights.end(),
-                                           [](auto* light) { return differentiates(*light); }));
+  const bool lights = w.set.surface && std::any_of(bound.lights.begin(), bound.lights.end(),
+                                                   [](auto* light) { return differentiates(*light); });
+  w.beside = w.any_shader(differentiates) || lights;
+  w.done_beside = !lights && std::none_of(w.volumes.begin(), w.volumes.end(),
+                                          [](auto* volume) { return differentiates(*volume); });
   w.apart = w.any_shader([](const slvm::Instance& shader) { return reads(shader, "E", false); });
   w.is_read = [outputs, shaders = w](const std::string& name) {
     return shaders.any_shader([&](const slvm::Instance& s) { return reads(s, name, true); }) ||
@@ -480,6 +483,7 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
     take(context, grid, set.displacement, From::kDisplacement, hits, outputs);
   }
   if (!demand.surface) return;
+  grid.neighbours_end = work.done_beside;
   context.shade_surface(set, grid);
   if (work.plain)
     look_like_primitive(grid);

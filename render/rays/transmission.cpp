@@ -34,13 +34,14 @@ bool is_dark(Color through) {
   return std::max({through.x, through.y, through.z}) < kDark;
 }
 
-/// Nearest first. Where a ray meets the edge between two faces of an item it has hit a surface once.
+/// Nearest first. Where a ray meets the edge between two faces of an item, or the diagonal of one, it has hit
+/// a surface once.
 void put_in_order(const RayGeometry& geometry, std::vector<RayHit>& layers) {
   std::sort(layers.begin(), layers.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.distance, a.item, a.face) < std::tie(b.distance, b.item, b.face);
   });
   auto same = [&](const RayHit& a, const RayHit& b) {
-    return a.item == b.item && a.face != b.face && b.distance - a.distance <= 2e-6f * b.distance &&
+    return a.item == b.item && b.distance - a.distance <= 2e-6f * b.distance &&
            geometry.same_surface(a.item, a.face, b.face);
   };
   layers.erase(std::unique(layers.begin(), layers.end(), same), layers.end());
