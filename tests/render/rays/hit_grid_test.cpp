@@ -176,6 +176,44 @@ TEST(HitGrid, derivatives_at_the_edges_of_a_surface) {
   EXPECT_NEAR(hits.grid.variable(slvm::Global::kP).get(0, 1), 1.25f, 1e-4f);
 }
 
+TEST(HitGrid, neighbours_are_left_out_behind_the_last_derivative) {
+  // The same shader, once with a derivative at its end that changes nothing; a light whose colour varies,
+  // loops and conditions behind and in front of derivatives.
+  auto shader = [](const std::string& name, const std::string& last) {
+    return "surface " + name +
+           "() { color c = 0; float d = Du(s * s), k = 0; uniform float i;"
+           " if (s > .5) d *= 2;"
+           " illuminance(P, N, PI) c += Cl * (normalize(L).normalize(N));"
+           " for (i = 0; i < 3; i += 1) { if (t > .25 * i) k += noise(4 * P) + d; }"
+           " c += diffuse(faceforward(normalize(N), I)); float e = d * k;" +
+           last + " Ci = c * (1 + d + e); Oi = 1; }";
+  };
+  auto rib = [](const std::string& name) {
+    return "WorldBegin " + kSeen + "Translate 0 0 4 LightSource \"lamp\" 1 TransformBegin Surface \"" + name +
+           "\" Sphere 1 -1 1 360 TransformEnd WorldEnd";
+  };
+  const std::string lamp =
+      "light lamp() { illuminate(point \"shader\" (2, 2, -3)) { Cl = 9 * noise(3 * Ps) / (L.L); } }";
+  RayScene early(rib("early"), {{"early", shader("early", "")}, {"lamp", lamp}});
+  RayScene late(rib("late"), {{"late", shader("late", " e += 0 * Du(e);")}, {"lamp", lamp}});
+  EXPECT_EQ(early.messages() + late.messages(), "");
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 500; ++i) {
+    float a = 0.37f * static_cast<float>(i), r = 0.0018f * static_cast<float>(i);
+    rays.push_back({{r * std::cos(a), r * std::sin(a), 0}});
+  }
+  const std::vector<slvm::RayOutput> Ci{
+      RayScene::output(slvm::RayOutput::From::kSurface, "Ci", slvm::Type::kColor)};
+  auto x = early.trace(rays, Ci), y = late.trace(rays, Ci);
+  float most = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(x[i].values[0].size(), 3u);
+    EXPECT_EQ(x[i].values[0], y[i].values[0]) << i;
+    most = std::max(most, x[i].values[0][0]);
+  }
+  EXPECT_GT(most, 0.1f);
+}
+
 TEST(HitGrid, shaders_at_hits_differentiate) {
   RayScene s("WorldBegin " + kSeen +
                  "Surface \"slope\" Patch \"bilinear\" \"P\" [0 0 5 2 0 5 0 4 5 2 4 5] WorldEnd",
