@@ -57,7 +57,7 @@ OUTSIDE = {
     r"(?:tiffio|png)\.h": ["render/texture"],
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
-    r"hwy/": ["slvm/wide", "slvm/kernels", "tests/bench", "tests/unit/kernels"],
+    r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_hits", "render/hider/window_weights", "tests/bench", "tests/unit/kernels"],
     r"sleef": ["slvm/wide", "slvm/kernels", "tests/unit/kernels"],
     r"opensubdiv/": ["render/prims"],
     r"CLI/": ["slc/tools", "slvm/tools", "render/tools", "stdlib/tools"],

@@ -65,6 +65,7 @@ public:
 private:
   struct Worker {
     std::unique_ptr<GridShader> shader;
+    std::unique_ptr<SampleBuffer> samples;
     slvm::Grid grid{2, 2};
     FrameReport report;
   };
@@ -210,7 +211,9 @@ void FrameRenderer::make_buckets() {
 void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
   Bucket& bucket = buckets_[static_cast<size_t>(j * layout_.columns + i)];
   PixelRect pixels = layout_.rect(i, j);
-  SampleBuffer samples(pixels, sampling_);
+  if (!worker.samples) worker.samples = std::make_unique<SampleBuffer>(sampling_);
+  SampleBuffer& samples = *worker.samples;
+  samples.begin(pixels);
   BucketQueue queue(batch_, std::exchange(bucket.tasks, {}), bucket.procedurals);
   std::vector<LazyBatch*> opened;
   for (BucketQueue::Item item; queue.next(item);) {

@@ -39,8 +39,9 @@ struct ShaderCost {
 struct FrameReport {
   size_t primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0, micropolygons = 0;
   std::map<std::string, ShaderCost> shaders; ///< by name of the surface shader
-  uint64_t variables = 0; ///< a bit for each of the first 64 FrameSettings::aovs that some grid had a value for
-  size_t bad_colours = 0;                    ///< shading points whose colour was not a finite number
+  uint64_t variables =
+      0; ///< a bit for each of the first 64 FrameSettings::aovs that some grid had a value for
+  size_t bad_colours = 0; ///< shading points whose colour was not a finite number
 };
 
 /// The threads that FrameSettings::threads stands for.

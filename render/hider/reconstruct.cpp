@@ -2,7 +2,7 @@
 // bucket that makes it.
 #include "render/hider/reconstruct.h"
 
-#include "render/hider/filter.h"
+#include "render/hider/window_weights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,33 +22,12 @@ struct Term {
   int count, to;
 };
 
-/// The cells, of `density` a pixel, within half a width of `centre`.
-void reach(float centre, float width, int density, int cells, int& from, int& to) {
+/// The cells, of `density` a pixel, that have points less than half a width from `centre`.
+void reach(float centre, float width, int density, int cells, size_t& from, size_t& to) {
   auto d = static_cast<float>(density);
-  from = std::max(0, static_cast<int>((centre - width / 2) * d));
-  to = std::min(cells, static_cast<int>((centre + width / 2) * d) + 1);
+  from = static_cast<size_t>(std::max(0.0f, (centre - width / 2) * d));
+  to = static_cast<size_t>(std::clamp(std::ceil((centre + width / 2) * d), 0.0f, static_cast<float>(cells)));
 }
-
-/// The factor of one axis of a separable filter, from a table: at most 1e-5 off for smooth filters. 0 beyond
-/// the filter's width.
-class AxisWeights {
-public:
-  AxisWeights(FilterKind kind, float width) : scale_(2 * kSteps / width) {
-    for (size_t i = 0; i <= kSteps; ++i)
-      table_[i] = axis_weight(kind, width / 2 * static_cast<float>(i) / kSteps, width);
-  }
-  float at(float offset) const {
-    float place = std::abs(offset) * scale_;
-    if (place > static_cast<float>(kSteps)) return 0;
-    auto i = static_cast<size_t>(static_cast<int>(place));
-    return table_[i] + (table_[i + 1] - table_[i]) * (place - static_cast<float>(static_cast<int>(place)));
-  }
-
-private:
-  static constexpr size_t kSteps = 512;
-  float scale_;
-  float table_[kSteps + 2] = {};
-};
 
 class Reconstruction {
 public:
@@ -146,27 +125,25 @@ void Reconstruction::add(const Plan& plan, size_t sample, float weight, float* p
 
 template <bool standard> void Reconstruction::filter(const Plan& plan) {
   const PixelFilter& filter = plan.filter;
-  bool separable = is_separable(filter.kind);
-  AxisWeights x_weights(filter.kind, filter.xwidth), y_weights(filter.kind, filter.ywidth);
+  WindowWeights weights(filter);
   auto width = static_cast<size_t>(pattern_.width());
+  SampleWindow window;
   for (int y = rect_.y0; y < rect_.y1; ++y) {
     float cy = static_cast<float>(y) + 0.5f;
-    int j0, j1;
-    reach(cy - static_cast<float>(covered_.y0), filter.ywidth, size_.ysamples, pattern_.height(), j0, j1);
+    reach(cy - static_cast<float>(covered_.y0), filter.ywidth, size_.ysamples, pattern_.height(), window.j0,
+          window.j1);
     for (int x = rect_.x0; x < rect_.x1; ++x) {
       float cx = static_cast<float>(x) + 0.5f;
-      int i0, i1;
-      reach(cx - static_cast<float>(covered_.x0), filter.xwidth, size_.xsamples, pattern_.width(), i0, i1);
+      reach(cx - static_cast<float>(covered_.x0), filter.xwidth, size_.xsamples, pattern_.width(), window.i0,
+            window.i1);
+      const float* weight = weights.at({cx, cy}, pattern_, window);
       // Summed here and not in the image, to stay in registers.
       float sum[Image::kAov] = {};
       float* p = image_.pixel(x, y);
       float total = 0;
-      for (int j = j0; j < j1; ++j)
-        for (size_t k = static_cast<size_t>(j) * width + static_cast<size_t>(i0),
-                    end = k + static_cast<size_t>(i1 - i0);
-             k < end; ++k) {
-          float dx = pattern_.at(k).x - cx, dy = pattern_.at(k).y - cy;
-          float w = separable ? x_weights.at(dx) * y_weights.at(dy) : filter_weight(filter, dx, dy);
+      for (size_t j = window.j0; j < window.j1; ++j)
+        for (size_t k = j * width + window.i0, end = j * width + window.i1; k < end; ++k, ++weight) {
+          float w = *weight;
           total += w;
           if constexpr (standard)
             for (int c = 0; c < Image::kAov; ++c)

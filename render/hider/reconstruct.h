@@ -13,6 +13,14 @@ namespace render {
 /// What a sample comes to: the first channels of an image. z: infinite where nothing is.
 struct SampleResult {
   float channels[Image::kAov] = {0, 0, 0, 0, 0, 0, 0, kInfinity};
+
+  void set_colours(Color C, Color O) {
+    for (int c = 0; c < 3; ++c) {
+      channels[Image::kCi + c] = C[c];
+      channels[Image::kOi + c] = O[c];
+    }
+    channels[Image::kAlpha] = (O.x + O.y + O.z) / 3;
+  }
 };
 
 struct ReconstructionSettings {

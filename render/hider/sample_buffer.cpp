@@ -2,57 +2,11 @@
 #include "render/hider/sample_buffer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <utility>
 
 namespace render {
 
 namespace {
-
-/// Twice the signed area of a, b, p, computed the same way for b, a, p, so that of two triangles that share
-/// an edge exactly one contains a sample on or near it.
-struct Edge {
-  Vec2 a, d;
-  bool swapped;
-  Edge(Vec2 from, Vec2 to) {
-    swapped = to.x < from.x || (to.x == from.x && to.y < from.y);
-    a = swapped ? to : from;
-    d = swapped ? from - to : to - from;
-  }
-  float value(Vec2 p) const { return d.x * (p.y - a.y) - d.y * (p.x - a.x); }
-  bool left(float value) const { return (value >= 0) != swapped; }
-};
-
-/// A micropolygon as two triangles with the side a-d in common: a, b, d and a, d, c.
-struct Quad {
-  Edge ab, bd, da, dc, ca;
-  Quad(Vec2 a, Vec2 b, Vec2 c, Vec2 d) : ab(a, b), bd(b, d), da(d, a), dc(d, c), ca(c, a) {}
-  enum Part { kOutside, kFirst, kSecond };
-  /// The triangle p is in, and its barycentric weights there, in the order above. A folded micropolygon may
-  /// cover p twice: the other triangle is found `after` the first.
-  Part find(Vec2 p, float (&weights)[3], Part after = kOutside) const {
-    float diagonal = da.value(p);
-    bool side = da.left(diagonal);
-    if (float e = ab.value(p); after == kOutside && ab.left(e) == side)
-      if (float f = bd.value(p); bd.left(f) == side) return weigh(f, diagonal, e, kFirst, weights);
-    if (float e = dc.value(p); dc.left(e) != side)
-      if (float f = ca.value(p); ca.left(f) != side) return weigh(e, f, diagonal, kSecond, weights);
-    return kOutside;
-  }
-
-private:
-  static Part weigh(float a, float b, float c, Part part, float (&weights)[3]) {
-    a = std::abs(a);
-    b = std::abs(b);
-    c = std::abs(c);
-    float sum = a + b + c;
-    if (!(sum > 0)) return kOutside;
-    weights[0] = a / sum;
-    weights[1] = b / sum;
-    weights[2] = c / sum;
-    return part;
-  }
-};
 
 bool reaches(Color opacity, Color threshold) {
   return opacity.x >= threshold.x && opacity.y >= threshold.y && opacity.z >= threshold.z;
@@ -86,21 +40,38 @@ PixelRect with_margins(const PixelRect& r, const ReconstructionSettings& s) {
 
 } // namespace
 
-SampleBuffer::SampleBuffer(PixelRect rect, const SamplingSettings& settings)
-    : settings_(settings), rect_(rect), covered_(with_margins(rect, settings.reconstruction)),
-      pattern_(covered_, settings.size, settings.moving || settings.lens), samples_(pattern_.count()),
-      aovs_(settings.aov_floats()), sample_aov_(samples_.size() * aovs_), open_(samples_.size()),
+SampleBuffer::SampleBuffer(const SamplingSettings& settings)
+    : settings_(settings), pattern_(settings.size, settings.moving, settings.lens != nullptr),
+      density_(static_cast<float>(settings.size.xsamples), static_cast<float>(settings.size.ysamples)),
+      aovs_(settings.aov_floats()),
       midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {
-  if (!settings_.lens) return;
-  for (size_t i = 0; i < samples_.size(); ++i)
-    lens_.push_back(settings_.lens->lens_to_raster(pattern_.lens(i)));
-  for (int s = 0; s < pattern_.strata(); ++s) {
+  for (int s = 0; settings_.lens && s < pattern_.strata(); ++s) {
     auto [low, high] = pattern_.lens_box(s);
     Box& box = lens_boxes_.emplace_back();
     for (float x : {low.x, high.x})
       for (float y : {low.y, high.y})
         box.add(Vec3(settings_.lens->lens_to_raster({x, y}), 0));
+    lens_box_.add(box.min);
+    lens_box_.add(box.max);
   }
+}
+
+void SampleBuffer::begin(PixelRect rect) {
+  rect_ = rect;
+  covered_ = with_margins(rect, settings_.reconstruction);
+  pattern_.cover(covered_);
+  origin_ = {static_cast<float>(covered_.x0), static_cast<float>(covered_.y0)};
+  open_ = pattern_.count();
+  farthest_known_ = false;
+  samples_.assign(open_, {});
+  z_.assign(open_ + SampleField::kPadding, kInfinity);
+  if (midpoint_) second_.assign(open_ + SampleField::kPadding, kInfinity);
+  sample_aov_.assign(open_ * aovs_, 0.0f);
+  fragments_.clear();
+  fragment_aov_.clear();
+  lens_.clear();
+  for (size_t i = 0; settings_.lens && i < open_; ++i)
+    lens_.push_back(settings_.lens->lens_to_raster(pattern_.lens(i)));
 }
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
@@ -110,7 +81,11 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
   }
   auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
   bool moving = settings_.lens || !grid.times.empty();
-  for (size_t j = 0, m = 0; j + 1 < nv; ++j)
+  for (size_t j = 0, m = 0; j + 1 < nv; ++j) {
+    if (!moving && !grid.rows.empty() && !grid.rows[j].touches(covered_)) {
+      m += nu - 1;
+      continue;
+    }
     for (size_t i = 0; i + 1 < nu; ++i, ++m) {
       if (grid.hidden[m] == ShadedGrid::kNotDrawn) continue;
       if (moving)
@@ -118,49 +93,78 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
       else
         draw_micropolygon(grid, j * nu + i);
     }
+  }
 }
 
 namespace {
 
+/// For the rounding of moved corners, in pixels.
+constexpr float kSlack = 1e-3f;
+
 /// The whole numbers from `from` to `to`, both included, that are below `size`.
-void cells(float from, float to, int size, int& begin, int& end) {
+void cells(float from, float to, int size, size_t& begin, size_t& end) {
   // What is clamped at 0 is cut off like floor().
   auto limit = static_cast<float>(size);
-  begin = static_cast<int>(std::clamp(from, 0.0f, limit));
-  end = to < 0 ? 0 : static_cast<int>(std::min(to + 1, limit));
+  begin = static_cast<size_t>(std::clamp(from, 0.0f, limit));
+  end = to < 0 ? 0 : static_cast<size_t>(std::min(to + 1, limit));
+}
+
+/// The cells of `size`, in columns and rows, that the rectangle from `low` to `high` touches. False: none.
+bool find_window(Vec2 low, Vec2 high, int columns, int rows, SampleWindow& window) {
+  cells(low.x, high.x, columns, window.i0, window.i1);
+  cells(low.y, high.y, rows, window.j0, window.j1);
+  return window.i0 < window.i1 && window.j0 < window.j1;
 }
 
 } // namespace
 
+SampleField SampleBuffer::field(const ShadedGrid& grid) const {
+  // Whatever is hidden still bounds a solid.
+  const float* limits = grid.solid ? nullptr : this->limits().data();
+  SampleField out{pattern_.x(), pattern_.y(), limits, static_cast<size_t>(pattern_.width())};
+  out.time = pattern_.times();
+  if (settings_.lens) {
+    out.lens = lens_.data();
+    out.focus = settings_.lens->defocus(kInfinity);
+  }
+  return out;
+}
+
+void SampleBuffer::make_room(const SampleWindow& window) {
+  size_t room = 2 * window.count() + SampleField::kPadding;
+  if (hits_.size() < room) hits_.resize(room);
+}
+
+/// The first hits of hits_, of the micropolygon whose first corner is k.
+void SampleBuffer::hit_all(const ShadedGrid& grid, size_t k, size_t count) {
+  auto nu = static_cast<size_t>(grid.nu);
+  for (const QuadHit& h : std::span(hits_.data(), count)) {
+    bool first = h.part == QuadPart::kFirst;
+    hit(grid, h.sample, {k, first ? k + 1 : k + nu + 1, first ? k + nu + 1 : k + nu}, h.weights, h.z);
+  }
+}
+
 void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
   auto nu = static_cast<size_t>(grid.nu);
   const auto& position = grid.position;
-  Vec2 p[4] = {Vec2(position[k]), Vec2(position[k + 1]), Vec2(position[k + nu]), Vec2(position[k + nu + 1])};
-  Vec2 low = glm::min(glm::min(p[0], p[1]), glm::min(p[2], p[3]));
-  Vec2 high = glm::max(glm::max(p[0], p[1]), glm::max(p[2], p[3]));
-  auto xs = static_cast<float>(settings_.size.xsamples), ys = static_cast<float>(settings_.size.ysamples);
-  auto x0 = static_cast<float>(covered_.x0), y0 = static_cast<float>(covered_.y0);
-  int i0, i1, j0, j1;
-  cells((low.x - x0) * xs, (high.x - x0) * xs, pattern_.width(), i0, i1);
-  cells((low.y - y0) * ys, (high.y - y0) * ys, pattern_.height(), j0, j1);
-  if (i0 >= i1 || j0 >= j1) return;
-  std::optional<Quad> quad; // most small micropolygons have no sample even in their box
-  float weights[3];
-  for (int j = j0; j < j1; ++j)
-    for (int i = i0; i < i1; ++i) {
-      size_t index = static_cast<size_t>(j) * static_cast<size_t>(pattern_.width()) + static_cast<size_t>(i);
-      Vec2 at = pattern_.at(index);
-      if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) continue;
-      if (!quad) quad.emplace(p[0], p[1], p[2], p[3]);
-      Quad::Part part = quad->find(at, weights);
-      while (part != Quad::kOutside) {
-        size_t second = part == Quad::kFirst ? k + 1 : k + nu + 1,
-               third = part == Quad::kFirst ? k + nu + 1 : k + nu;
-        hit(grid, index, {k, second, third}, weights,
-            blend(position[k].z, position[second].z, position[third].z, weights));
-        part = grid.solid && part == Quad::kFirst ? quad->find(at, weights, part) : Quad::kOutside;
-      }
-    }
+  const Vec3 p[4] = {position[k], position[k + 1], position[k + nu], position[k + nu + 1]};
+  Vec2 low = glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3])));
+  Vec2 high = glm::max(glm::max(Vec2(p[0]), Vec2(p[1])), glm::max(Vec2(p[2]), Vec2(p[3])));
+  SampleWindow window;
+  if (!find_window((low - origin_) * density_, (high - origin_) * density_, pattern_.width(),
+                   pattern_.height(), window))
+    return;
+  make_room(window);
+  hit_all(grid, k, quad_hits(p, grid.solid != nullptr, field(grid), window, hits_.data()));
+}
+
+/// Makes room for what the lens does to the box: `shift`, by the defocus of its depths.
+void SampleBuffer::add_lens(const Box& shift, Box& box) const {
+  const Camera* lens = settings_.lens;
+  if (!lens) return;
+  float a = lens->defocus(box.min.z), b = lens->defocus(box.max.z);
+  box.min += glm::min(glm::min(shift.min * a, shift.max * a), glm::min(shift.min * b, shift.max * b));
+  box.max += glm::max(glm::max(shift.min * a, shift.max * a), glm::max(shift.min * b, shift.max * b));
 }
 
 /// For each stratum of time and lens only the pixels are looked at that the micropolygon reaches in it, and
@@ -168,58 +172,52 @@ void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
 void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
   auto nu = static_cast<size_t>(grid.nu);
   const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
-  const Camera* lens = settings_.lens;
-  constexpr float kSlack = 1e-3f;
+  Box everywhere;
+  for (size_t first = 0; first < grid.position.size(); first += grid.points())
+    for (size_t c : corner)
+      everywhere.add(grid.position[first + c]);
+  add_lens(lens_box_, everywhere);
+  SampleWindow window;
+  if (!find_window(Vec2(everywhere.min) - origin_ - kSlack, Vec2(everywhere.max) - origin_ + kSlack,
+                   covered_.width(), covered_.height(), window))
+    return;
   auto n = static_cast<float>(pattern_.strata());
-  bool still = grid.times.empty();
-  Vec3 now[4], next[4];
-  float defocus[4] = {};
-  for (size_t c = 0; c < 4; ++c) {
-    now[c] = next[c] = grid.position[corner[c]];
-    if (lens) defocus[c] = lens->defocus(now[c].z);
-  }
   for (int s = 0; s < pattern_.strata(); ++s) {
-    float from = static_cast<float>(s) / n, to = static_cast<float>(s + 1) / n;
-    Box box;
-    for (size_t c = 0; c < 4; ++c) {
-      box.add(now[c]);
-      if (still) continue;
-      box.add(next[c] = grid.at(corner[c], to));
-      now[c] = next[c];
-      for (size_t t = 0; t < grid.times.size(); ++t)
-        if (grid.times[t] > from && grid.times[t] < to) box.add(grid.position[t * grid.points() + corner[c]]);
-    }
-    if (lens) {
-      const Box& shift = lens_boxes_[static_cast<size_t>(s)];
-      float a = lens->defocus(box.min.z), b = lens->defocus(box.max.z);
-      box.min += glm::min(glm::min(shift.min * a, shift.max * a), glm::min(shift.min * b, shift.max * b));
-      box.max += glm::max(glm::max(shift.min * a, shift.max * a), glm::max(shift.min * b, shift.max * b));
-    }
-    int i0, i1, j0, j1;
-    cells(box.min.x - kSlack - static_cast<float>(covered_.x0),
-          box.max.x + kSlack - static_cast<float>(covered_.x0), covered_.width(), i0, i1);
-    cells(box.min.y - kSlack - static_cast<float>(covered_.y0),
-          box.max.y + kSlack - static_cast<float>(covered_.y0), covered_.height(), j0, j1);
-    for (int j = j0; j < j1; ++j)
-      for (int i = i0; i < i1; ++i) {
-        size_t index = pattern_.of_stratum(i, j, s);
-        Vec3 p[4];
-        for (size_t c = 0; c < 4; ++c) {
-          p[c] = still ? now[c] : grid.at(corner[c], pattern_.time(index));
-          if (lens) p[c] += Vec3(lens_[index] * (still ? defocus[c] : lens->defocus(p[c].z)), 0);
-        }
-        float weights[3];
-        Quad quad{Vec2(p[0]), Vec2(p[1]), Vec2(p[2]), Vec2(p[3])};
-        Quad::Part part = quad.find(pattern_.at(index), weights);
-        while (part != Quad::kOutside) {
-          size_t second = part == Quad::kFirst ? 1 : 3, third = part == Quad::kFirst ? 3 : 2;
-          hit(grid, index, {corner[0], corner[second], corner[third]}, weights,
-              blend(p[0].z, p[second].z, p[third].z, weights));
-          part = grid.solid && part == Quad::kFirst ? quad.find(pattern_.at(index), weights, part)
-                                                    : Quad::kOutside;
-        }
+    float end = static_cast<float>(s + 1) / n;
+    MovingQuad quad;
+    quad.t1 = static_cast<float>(s) / n;
+    for (size_t c = 0; c < 4; ++c)
+      quad.to[c] = grid.at(corner[c], quad.t1);
+    // In pieces where the motion turns within the stratum.
+    while (quad.t1 < end) {
+      quad.t0 = std::exchange(quad.t1, end);
+      for (float t : grid.times)
+        if (t > quad.t0) quad.t1 = std::min(quad.t1, t);
+      for (size_t c = 0; c < 4; ++c) {
+        quad.from[c] = quad.to[c];
+        quad.to[c] = grid.at(corner[c], quad.t1);
       }
+      draw_segment(grid, k, quad, s);
+    }
   }
+}
+
+void SampleBuffer::draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum) {
+  Box box;
+  for (size_t c = 0; c < 4; ++c) {
+    box.add(quad.from[c]);
+    box.add(quad.to[c]);
+  }
+  if (settings_.lens) add_lens(lens_boxes_[static_cast<size_t>(stratum)], box);
+  quad.low = Vec2(box.min) - kSlack;
+  quad.high = Vec2(box.max) + kSlack;
+  SampleWindow window;
+  if (!find_window(quad.low - origin_, quad.high - origin_, covered_.width(), covered_.height(), window))
+    return;
+  make_room(window);
+  hit_all(grid, k,
+          moving_hits(quad, grid.solid != nullptr, field(grid), pattern_.of_stratum(stratum),
+                      static_cast<size_t>(covered_.width()), window, hits_.data()));
 }
 
 bool SampleBuffer::removed(size_t index, float z) const {
@@ -252,7 +250,7 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
     hit_solid(grid, index, corners, weights, z);
     return;
   }
-  if (behind(samples_[index], z) || z < settings_.near_plane || z > settings_.far_plane) return;
+  if (z >= limits()[index] || z < settings_.near_plane || z > settings_.far_plane) return;
   if (removed(index, z)) return;
   add(index, colour_of(grid, grid.Ci, corners, weights), colour_of(grid, grid.Oi, corners, weights), z,
       grid.matte, grid.aov.data() + corners[0] * aovs_);
@@ -275,28 +273,30 @@ void SampleBuffer::hit_solid(const ShadedGrid& grid, size_t index, const size_t 
 void SampleBuffer::resolve_solid() {
   if (solid_hits_.empty()) return;
   solid_hits_.resolve(*solid_, [&](size_t k, const SolidHit& h) {
-    if (!behind(samples_[h.sample], h.z))
-      add(h.sample, h.Ci, h.Oi, h.z, h.matte, solid_aov_.data() + k * aovs_);
+    if (!(h.z >= limits()[h.sample])) add(h.sample, h.Ci, h.Oi, h.z, h.matte, solid_aov_.data() + k * aovs_);
   });
   solid_aov_.clear();
 }
 
 void SampleBuffer::add(size_t index, Color Ci, Color Oi, float z, bool matte, const float* aov) {
   Sample& sample = samples_[index];
+  float& nearest = z_[index];
   if (reaches(Oi, settings_.opacity_threshold)) {
     farthest_known_ = false;
-    bool was_open = (midpoint_ ? sample.second : sample.z) == kInfinity;
-    sample.second = std::min(sample.second, std::max(z, sample.z));
-    if (was_open && (midpoint_ ? sample.second : z) < kInfinity) --open_;
-    if (z >= sample.z) return;
-    sample.z = z;
+    float& limit = limits()[index];
+    bool was_open = limit == kInfinity;
+    if (midpoint_) limit = std::min(limit, std::max(z, nearest));
+    bool in_front = z < nearest;
+    if (in_front) nearest = z;
+    if (was_open && limit < kInfinity) --open_;
+    if (!in_front) return;
     sample.Ci = Ci;
     sample.Oi = Oi;
     sample.matte = matte;
     std::copy_n(aov, aovs_, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_));
     return;
   }
-  if (z >= sample.z || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
+  if (z >= nearest || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
   auto order = static_cast<uint32_t>(fragments_.size());
   fragments_.push_back({Ci, Oi, z, sample.fragments, order, matte});
   fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs_);
@@ -307,8 +307,8 @@ float SampleBuffer::farthest() const {
   if (open_ > 0) return kInfinity;
   if (!farthest_known_) {
     farthest_ = 0;
-    for (const Sample& s : samples_)
-      farthest_ = std::max(farthest_, midpoint_ ? s.second : s.z);
+    for (float z : std::span(limits().data(), samples_.size()))
+      farthest_ = std::max(farthest_, z);
     farthest_known_ = true;
   }
   return farthest_;
@@ -316,11 +316,12 @@ float SampleBuffer::farthest() const {
 
 /// Front to back: C += T Ci, T *= 1 - Oi for each component, until the opacity threshold (RISpec 3.2, 4.2).
 /// The depth is that of the first surface opaque enough to have one.
-SampleResult SampleBuffer::composite(size_t index) {
+SampleResult SampleBuffer::composite_fragments(size_t index) {
   const Sample& sample = samples_[index];
+  const float nearest = z_[index];
   scratch_.clear();
   for (uint32_t f = sample.fragments; f != kNone; f = fragments_[f].next)
-    if (fragments_[f].z < sample.z) scratch_.push_back(&fragments_[f]);
+    if (fragments_[f].z < nearest) scratch_.push_back(&fragments_[f]);
   std::sort(scratch_.begin(), scratch_.end(), [](const Fragment* a, const Fragment* b) {
     return a->z != b->z ? a->z < b->z : a->order < b->order;
   });
@@ -346,29 +347,36 @@ SampleResult SampleBuffer::composite(size_t index) {
     closed = reaches(Color(1.0f) - through, settings_.opacity_threshold);
     if (closed) break;
   }
-  if (!closed && sample.z < kInfinity) {
+  if (!closed && nearest < kInfinity) {
     add(sample.Ci, sample.Oi, sample.matte);
     if (sample.matte && !seen) std::fill_n(own_aov, aovs_, 0.0f);
   }
-  if (sample.z < kInfinity && !sample.matte) {
-    float z = sample.z;
-    if (midpoint_ && sample.second < kInfinity) z = 0.5f * (z + sample.second);
-    out.channels[Image::kZ] = std::min(out.channels[Image::kZ], z);
-  }
-  for (int c = 0; c < 3; ++c) {
-    out.channels[Image::kCi + c] = C[c];
-    out.channels[Image::kOi + c] = O[c];
-  }
-  out.channels[Image::kAlpha] = (O.x + O.y + O.z) / 3;
+  if (!sample.matte) out.channels[Image::kZ] = std::min(out.channels[Image::kZ], opaque_depth(index));
+  out.set_colours(C, O);
   return out;
+}
+
+SampleResult SampleBuffer::composite(size_t index) {
+  const Sample& sample = samples_[index];
+  if (sample.fragments != kNone || sample.matte) return composite_fragments(index);
+  SampleResult out;
+  out.channels[Image::kZ] = opaque_depth(index);
+  out.set_colours(sample.Ci, sample.Oi);
+  return out;
+}
+
+/// The depth of what is opaque; with midpoints, half way to what is behind it.
+float SampleBuffer::opaque_depth(size_t index) const {
+  float z = z_[index];
+  return midpoint_ && second_[index] < kInfinity ? 0.5f * (z + second_[index]) : z;
 }
 
 void SampleBuffer::finish(Image& image) {
   resolve_solid();
-  std::vector<SampleResult> results(samples_.size());
+  results_.resize(samples_.size());
   for (size_t i = 0; i < samples_.size(); ++i)
-    results[i] = composite(i);
-  reconstruct(settings_.reconstruction, settings_.size, rect_, covered_, pattern_, results, sample_aov_,
+    results_[i] = composite(i);
+  reconstruct(settings_.reconstruction, settings_.size, rect_, covered_, pattern_, results_, sample_aov_,
               image);
 }
 

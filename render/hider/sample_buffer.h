@@ -4,6 +4,7 @@
 
 #include "render/hider/depth_mask.h"
 #include "render/hider/image.h"
+#include "render/hider/quad_hits.h"
 #include "render/hider/reconstruct.h"
 #include "render/hider/sample_pattern.h"
 #include "render/hider/shaded_grid.h"
@@ -32,10 +33,12 @@ struct SamplingSettings {
   size_t aov_floats() const { return reconstruction.aov_floats(); }
 };
 
+/// Serves one bucket after another.
 class SampleBuffer {
 public:
-  /// For the pixels of `rect`.
-  SampleBuffer(PixelRect rect, const SamplingSettings& settings);
+  explicit SampleBuffer(const SamplingSettings& settings);
+  /// Forgets everything and goes on with the pixels of `rect`.
+  void begin(PixelRect rect);
 
   /// The area the samples lie in, margins included; x1 and y1 excluded.
   PixelRect covered() const { return covered_; }
@@ -43,7 +46,8 @@ public:
   void draw(const ShadedGrid& grid);
   /// Camera z beyond which nothing can be seen any more; infinite while a sample is open.
   float farthest() const;
-  /// Composites and filters into the image's pixels of the bucket. Call once, after the last draw.
+  /// Composites and filters into the image's pixels of the bucket. Call once for each bucket, after the last
+  /// draw.
   void finish(Image& image);
 
 private:
@@ -55,9 +59,8 @@ private:
     uint32_t order; ///< of arrival, to decide between equal depths
     bool matte;
   };
+  /// The nearest opaque surface, without its depth, and what is in front of it.
   struct Sample {
-    float z = kInfinity;      ///< of the nearest opaque surface; infinite: none
-    float second = kInfinity; ///< of the opaque surface behind it; kept for midpoints only
     Color Ci{0.0f}, Oi{0.0f};
     uint32_t fragments = kNone;
     bool matte = false;
@@ -66,25 +69,40 @@ private:
 
   void draw_micropolygon(const ShadedGrid& grid, size_t k);
   void draw_moving(const ShadedGrid& grid, size_t k);
+  void draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum);
+  void add_lens(const Box& shift, Box& box) const;
+  SampleField field(const ShadedGrid& grid) const;
+  void make_room(const SampleWindow& window);
+  void hit_all(const ShadedGrid& grid, size_t k, size_t count);
   void hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
            float z);
   void hit_solid(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
                  float z);
-  /// Whether a surface at this depth would not change the sample.
-  bool behind(const Sample& sample, float z) const { return z >= (midpoint_ ? sample.second : sample.z); }
+  /// The depths from which on a surface would not change the samples.
+  std::vector<float>& limits() { return midpoint_ ? second_ : z_; }
+  const std::vector<float>& limits() const { return midpoint_ ? second_ : z_; }
   /// A surface over a sample, in front of what is opaque there.
   void add(size_t index, Color Ci, Color Oi, float z, bool matte, const float* aov);
   void resolve_solid();
   /// Left out by a clipping plane or by the depth mask.
   bool removed(size_t index, float z) const;
   SampleResult composite(size_t index);
+  SampleResult composite_fragments(size_t index);
+  float opaque_depth(size_t index) const;
 
   SamplingSettings settings_;
   PixelRect rect_, covered_;
+  Vec2 origin_{0.0f}; ///< of covered_
   SamplePattern pattern_;
+  Vec2 density_; ///< samples a pixel
   std::vector<Sample> samples_;
+  std::vector<float> z_;      ///< of each sample's nearest opaque surface; infinite: none
+  std::vector<float> second_; ///< of the opaque surface behind it; for midpoints only
+  std::vector<QuadHit> hits_;
+  std::vector<SampleResult> results_;
   std::vector<Vec2> lens_;      ///< each sample's point of the lens, as raster shift without defocus
   std::vector<Box> lens_boxes_; ///< the same, of each stratum
+  Box lens_box_;                ///< and of all of them
   std::vector<Fragment> fragments_;
   size_t aovs_; ///< floats of variables for each sample
   std::vector<float> sample_aov_, fragment_aov_;
@@ -92,7 +110,7 @@ private:
   std::shared_ptr<const SolidTree> solid_; ///< whose grids are being drawn
   SolidHits solid_hits_;
   std::vector<float> solid_aov_;
-  size_t open_;
+  size_t open_ = 0; ///< samples that a surface at any depth would change
   bool midpoint_;
   mutable float farthest_ = kInfinity;
   mutable bool farthest_known_ = false;

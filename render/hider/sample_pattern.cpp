@@ -28,26 +28,41 @@ void shuffle(std::vector<int>& order, int64_t x, int64_t y, uint64_t purpose) {
   }
 }
 
-} // namespace
-
-SamplePattern::SamplePattern(PixelRect area, const SampleGridSize& size, bool timed)
-    : width_(area.width() * size.xsamples), height_(area.height() * size.ysamples), columns_(area.width()),
-      strata_(size.xsamples * size.ysamples) {
-  at_.reserve(static_cast<size_t>(width_) * static_cast<size_t>(height_));
-  auto xs = static_cast<float>(size.xsamples), ys = static_cast<float>(size.ysamples);
-  for (int j = 0; j < height_; ++j)
-    for (int i = 0; i < width_; ++i) {
-      int x = area.x0 * size.xsamples + i, y = area.y0 * size.ysamples + j;
-      uint64_t h = size.jitter ? hash_of(x, y, kJitter) : 0;
-      float dx = size.jitter ? upper_unit(h) : 0.5f, dy = size.jitter ? lower_unit(h) : 0.5f;
-      at_.emplace_back((static_cast<float>(x) + dx) / xs, (static_cast<float>(y) + dy) / ys);
-    }
-  if (timed) add_strata(area, size);
-  if (size.levels) add_levels(area, size);
+/// The lens is a square of cells, from -1 to 1, before it becomes a disk.
+Vec2 lens_cell_size(const SampleGridSize& size) {
+  return {2 / static_cast<float>(size.xsamples), 2 / static_cast<float>(size.ysamples)};
 }
 
-void SamplePattern::add_levels(PixelRect area, const SampleGridSize& size) {
-  level_.resize(at_.size());
+} // namespace
+
+SamplePattern::SamplePattern(const SampleGridSize& size, bool timed, bool lens)
+    : size_(size), timed_(timed || lens), with_lens_(lens), strata_(size.xsamples * size.ysamples) {
+  if (lens) make_lens_boxes();
+}
+
+void SamplePattern::cover(PixelRect area) {
+  columns_ = area.width();
+  width_ = area.width() * size_.xsamples;
+  height_ = area.height() * size_.ysamples;
+  count_ = static_cast<size_t>(width_) * static_cast<size_t>(height_);
+  x_.resize(count_ + kPadding);
+  y_.resize(count_ + kPadding);
+  auto xs = static_cast<float>(size_.xsamples), ys = static_cast<float>(size_.ysamples);
+  size_t k = 0;
+  for (int j = 0; j < height_; ++j)
+    for (int i = 0; i < width_; ++i, ++k) {
+      int x = area.x0 * size_.xsamples + i, y = area.y0 * size_.ysamples + j;
+      uint64_t h = size_.jitter ? hash_of(x, y, kJitter) : 0;
+      float dx = size_.jitter ? upper_unit(h) : 0.5f, dy = size_.jitter ? lower_unit(h) : 0.5f;
+      x_[k] = (static_cast<float>(x) + dx) / xs;
+      y_[k] = (static_cast<float>(y) + dy) / ys;
+    }
+  if (timed_) add_strata(area);
+  if (size_.levels) add_levels(area);
+}
+
+void SamplePattern::add_levels(PixelRect area) {
+  level_.resize(count_);
   std::vector<int> order(static_cast<size_t>(strata_));
   auto n = static_cast<float>(strata_);
   for (int row = 0; row < area.height(); ++row)
@@ -56,7 +71,8 @@ void SamplePattern::add_levels(PixelRect area, const SampleGridSize& size) {
       shuffle(order, x, y, kLevelStrata);
       for (int s = 0; s < strata_; ++s) {
         int cell = order[static_cast<size_t>(s)];
-        int i = column * size.xsamples + cell % size.xsamples, j = row * size.ysamples + cell / size.xsamples;
+        int i = column * size_.xsamples + cell % size_.xsamples,
+            j = row * size_.ysamples + cell / size_.xsamples;
         float within = upper_unit(hash_of(x, y, kLevel + 64 * static_cast<uint64_t>(s)));
         level_[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)] =
             std::min((static_cast<float>(s) + within) / n, 0x1.fffffep-1f);
@@ -64,25 +80,21 @@ void SamplePattern::add_levels(PixelRect area, const SampleGridSize& size) {
     }
 }
 
-void SamplePattern::add_strata(PixelRect area, const SampleGridSize& size) {
+Vec2 SamplePattern::lens_corner(size_t stratum) const {
+  int cell = lens_cells_[stratum];
+  return Vec2(static_cast<float>(cell % size_.xsamples), static_cast<float>(cell / size_.xsamples)) *
+             lens_cell_size(size_) -
+         Vec2(1.0f);
+}
+
+void SamplePattern::make_lens_boxes() {
   auto n = static_cast<size_t>(strata_);
-  time_.resize(at_.size());
-  lens_.resize(at_.size());
-  of_stratum_.resize(at_.size());
-  // Which cell of the lens goes with which part of the time: the same in the whole frame, in no order.
-  std::vector<int> cells(n), order(n);
-  shuffle(cells, 0, 0, kLensCells);
-  Vec2 cell_size(2 / static_cast<float>(size.xsamples), 2 / static_cast<float>(size.ysamples));
-  auto corner = [&](size_t stratum) {
-    return Vec2(static_cast<float>(cells[stratum] % size.xsamples),
-                static_cast<float>(cells[stratum] / size.xsamples)) *
-               cell_size -
-           Vec2(1.0f);
-  };
+  lens_cells_.resize(n);
+  shuffle(lens_cells_, 0, 0, kLensCells);
   for (size_t s = 0; s < n; ++s) {
     // The extremes are at corners of the cell, or where it crosses an axis.
     constexpr float kSlack = 1e-4f;
-    Vec2 low = corner(s), high = low + cell_size;
+    Vec2 low = lens_corner(s), high = low + lens_cell_size(size_);
     LensBox box{Vec2(kInfinity), Vec2(-kInfinity)};
     auto add = [&](Vec2 p) {
       Vec2 q = square_to_disk(p);
@@ -96,20 +108,31 @@ void SamplePattern::add_strata(PixelRect area, const SampleGridSize& size) {
     if (low.y < 0 && high.y > 0) add({low.x, 0}), add({high.x, 0});
     lens_boxes_.push_back(box);
   }
+}
+
+void SamplePattern::add_strata(PixelRect area) {
+  auto n = static_cast<size_t>(strata_);
+  time_.resize(count_);
+  if (with_lens_) lens_.resize(count_);
+  of_stratum_.resize(count_ + kPadding);
+  std::vector<int> order(n);
+  Vec2 cell_size = lens_cell_size(size_);
   auto width = static_cast<size_t>(width_);
   for (int row = 0; row < area.height(); ++row)
     for (int column = 0; column < area.width(); ++column) {
       int x = area.x0 + column, y = area.y0 + row;
       shuffle(order, x, y, kStrata);
       for (size_t s = 0; s < n; ++s) {
-        int i = column * size.xsamples + order[s] % size.xsamples;
-        int j = row * size.ysamples + order[s] / size.xsamples;
+        int i = column * size_.xsamples + order[s] % size_.xsamples;
+        int j = row * size_.ysamples + order[s] / size_.xsamples;
         size_t k = static_cast<size_t>(j) * width + static_cast<size_t>(i);
         size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
-        of_stratum_[pixel * n + s] = static_cast<uint32_t>(k);
-        uint64_t h = hash_of(x, y, kTime + 64 * s), g = hash_of(x, y, kLens + 64 * s);
+        of_stratum_[s * pixels() + pixel] = static_cast<uint32_t>(k);
+        uint64_t h = hash_of(x, y, kTime + 64 * s);
         time_[k] = std::min((static_cast<float>(s) + upper_unit(h)) / static_cast<float>(n), 0x1.fffffep-1f);
-        lens_[k] = square_to_disk(corner(s) + cell_size * Vec2(upper_unit(g), lower_unit(g)));
+        if (!with_lens_) continue;
+        uint64_t g = hash_of(x, y, kLens + 64 * s);
+        lens_[k] = square_to_disk(lens_corner(s) + cell_size * Vec2(upper_unit(g), lower_unit(g)));
       }
     }
 }

@@ -2,6 +2,7 @@
 // sample's place in the frame only, never on buckets or crop windows.
 #pragma once
 
+#include "render/hider/quad_hits.h"
 #include "render/state/camera.h"
 
 #include <cstdint>
@@ -19,24 +20,28 @@ struct SampleGridSize {
 /// lens, has exactly one sample of every pixel.
 class SamplePattern {
 public:
-  /// `timed`: also times and lens points.
-  SamplePattern(PixelRect area, const SampleGridSize& size, bool timed);
+  static constexpr size_t kPadding = SampleField::kPadding;
+
+  /// `timed`: with times. `lens`: with lens points, too.
+  SamplePattern(const SampleGridSize& size, bool timed, bool lens);
+  /// From now on for this area.
+  void cover(PixelRect area);
 
   int width() const { return width_; } ///< samples in a row
   int height() const { return height_; }
-  size_t count() const { return at_.size(); }
-  Vec2 at(size_t k) const { return at_[k]; }        ///< raster
-  float time(size_t k) const { return time_[k]; }   ///< part of the shutter time, [0, 1)
+  size_t count() const { return count_; }
+  Vec2 at(size_t k) const { return {x_[k], y_[k]}; } ///< raster
+  const float* x() const { return x_.data(); }       ///< kPadding longer than count()
+  const float* y() const { return y_.data(); }
+  float time(size_t k) const { return time_[k]; } ///< part of the shutter time, [0, 1)
+  const float* times() const { return time_.data(); }
   Vec2 lens(size_t k) const { return lens_[k]; }    ///< in the unit disk
   float level(size_t k) const { return level_[k]; } ///< [0, 1); each nth of it has one sample of every pixel
 
   int strata() const { return strata_; }
-  /// The sample of a pixel (counted in the area) that is in a stratum.
-  uint32_t of_stratum(int column, int row, int stratum) const {
-    return of_stratum_[(static_cast<size_t>(row) * static_cast<size_t>(columns_) +
-                        static_cast<size_t>(column)) *
-                           static_cast<size_t>(strata_) +
-                       static_cast<size_t>(stratum)];
+  /// The samples in a stratum, one of each pixel, pixels in rows; kPadding longer.
+  const uint32_t* of_stratum(int stratum) const {
+    return of_stratum_.data() + static_cast<size_t>(stratum) * pixels();
   }
   /// The box around a stratum's part of the lens.
   struct LensBox {
@@ -45,13 +50,21 @@ public:
   const LensBox& lens_box(int stratum) const { return lens_boxes_[static_cast<size_t>(stratum)]; }
 
 private:
-  void add_strata(PixelRect area, const SampleGridSize& size);
-  void add_levels(PixelRect area, const SampleGridSize& size);
+  size_t pixels() const { return count_ / static_cast<size_t>(strata_); }
+  void make_lens_boxes();
+  Vec2 lens_corner(size_t stratum) const;
+  void add_strata(PixelRect area);
+  void add_levels(PixelRect area);
 
-  int width_, height_, columns_, strata_;
-  std::vector<Vec2> at_, lens_;
+  SampleGridSize size_;
+  bool timed_, with_lens_;
+  int width_ = 0, height_ = 0, columns_ = 0, strata_;
+  size_t count_ = 0;
+  std::vector<float> x_, y_;
+  std::vector<Vec2> lens_;
   std::vector<float> time_, level_;
   std::vector<uint32_t> of_stratum_;
+  std::vector<int> lens_cells_; ///< of each stratum: the same in the whole frame, in no order
   std::vector<LensBox> lens_boxes_;
 };
 

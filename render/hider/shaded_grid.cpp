@@ -48,6 +48,15 @@ void hide_back_faces(const slvm::Grid& grid, const Camera& camera, float toleran
   });
 }
 
+std::vector<RasterBounds> bounds_of_rows(const ShadedGrid& grid) {
+  auto nu = static_cast<size_t>(grid.nu);
+  std::vector<RasterBounds> out(static_cast<size_t>(grid.nv) - 1);
+  for (size_t j = 0; j < out.size(); ++j)
+    for (size_t k = j * nu; k < (j + 2) * nu; ++k)
+      out[j].add(Vec2(grid.position[k]));
+  return out;
+}
+
 } // namespace
 
 ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
@@ -97,6 +106,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   hide_behind_eye(grid, camera, out);
   if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
   if (outline) snap_to_outline(*outline, out.nu, out.nv, out.position);
+  out.rows = bounds_of_rows(out);
   return out;
 }
 
@@ -104,6 +114,7 @@ void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const
                    const GridOutline* outline) {
   const slvm::Planes& P = grid.variable(slvm::Global::kP);
   if (shaded.times.empty()) shaded.times.push_back(0);
+  shaded.rows.clear();
   shaded.times.push_back(time);
   std::vector<Vec3> moved(grid.points());
   for (size_t k = 0; k < moved.size(); ++k) {

@@ -12,6 +12,20 @@
 
 namespace render {
 
+/// A rectangle of the raster.
+struct RasterBounds {
+  Vec2 min{kInfinity}, max{-kInfinity};
+
+  void add(Vec2 p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+  }
+  bool touches(const PixelRect& r) const {
+    return max.x >= static_cast<float>(r.x0) && min.x <= static_cast<float>(r.x1) &&
+           max.y >= static_cast<float>(r.y0) && min.y <= static_cast<float>(r.y1);
+  }
+};
+
 struct ShadedGrid {
   int nu = 0, nv = 0; ///< points
   std::vector<Vec3>
@@ -23,6 +37,8 @@ struct ShadedGrid {
   /// For each micropolygon. What faces away and must not be seen still bounds a solid.
   enum Visibility : uint8_t { kDrawn, kNotDrawn, kFacesAway };
   std::vector<uint8_t> hidden;
+  /// Around each row of micropolygons, where it is in focus; empty: unknown, or the grid moves.
+  std::vector<RasterBounds> rows;
   std::shared_ptr<const SolidTree> solid; ///< that the surface belongs to; null: none
   SolidTree::NodeIndex solid_primitive = 0;
   bool cut_near = false; ///< the solid's primitive reaches in front of the near plane
@@ -36,6 +52,7 @@ struct ShadedGrid {
   /// A point at a part of the shutter time.
   Vec3 at(size_t point, float time) const {
     if (times.empty()) return position[point];
+    if (times.size() == 2) return position[point] + (position[points() + point] - position[point]) * time;
     size_t key = 0;
     while (key + 2 < times.size() && time > times[key + 1])
       ++key;

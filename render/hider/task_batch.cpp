@@ -123,11 +123,12 @@ void LazyContent::make(LazyBatch& lazy) {
   };
   for (uint32_t t = 0; t < batch.tasks.size(); ++t) {
     const GridTask& task = batch.tasks[t];
-    for_each(layout_.touched(task.raster_min, task.raster_max).within(lazy.buckets), [&](int, int, size_t bucket) {
-      if (lazy.left[bucket]) return;
-      lazy.tasks_of[bucket].push_back(t);
-      ++batch.slots[t].users;
-    });
+    for_each(layout_.touched(task.raster_min, task.raster_max).within(lazy.buckets),
+             [&](int, int, size_t bucket) {
+               if (lazy.left[bucket]) return;
+               lazy.tasks_of[bucket].push_back(t);
+               ++batch.slots[t].users;
+             });
   }
   batch.procedurals = lazy_batches(std::move(content.procedurals), lazy.id, camera_, layout_, lazy.buckets);
   for (const auto& inner : batch.procedurals)

@@ -52,6 +52,10 @@ Camera::Camera(const Options& o)
   if (perspective_ && o.fstop < kInfinity) {
     lens_radius_ = 0.5f * o.focal_length / o.fstop;
     focal_distance_ = o.focal_distance;
+    // Files that want no lens also say so by a huge fstop or a tiny focal length.
+    constexpr float kVisible = 1.0f / 64; // pixels
+    Vec2 most = blur(near_, kInfinity);
+    if (std::max(most.x, most.y) < kVisible) lens_radius_ = 0;
   }
   crop_range(o.xres, o.crop[0], o.crop[1], crop_.x0, crop_.x1);
   crop_range(o.yres, o.crop[2], o.crop[3], crop_.y0, crop_.y1);

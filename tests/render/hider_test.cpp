@@ -31,7 +31,8 @@ ShadedGrid sheet(float z, Color Ci, Color Oi) {
 
 Image drawn(const std::vector<ShadedGrid>& grids, const SamplingSettings& s = settings(), int size = 4) {
   Image image({0, 0, size, size}, static_cast<int>(s.aov_floats()));
-  SampleBuffer buffer(image.rect, s);
+  SampleBuffer buffer(s);
+  buffer.begin(image.rect);
   for (const ShadedGrid& g : grids)
     buffer.draw(g);
   buffer.finish(image);
@@ -150,7 +151,8 @@ TEST(Hider, clipping_planes_cut_within_a_micropolygon) {
 }
 
 TEST(Hider, farthest_is_known_once_all_samples_are_closed) {
-  SampleBuffer b({0, 0, 4, 4}, settings());
+  SampleBuffer b(settings());
+  b.begin({0, 0, 4, 4});
   EXPECT_EQ(b.farthest(), kInfinity);
   b.draw(sheet(5, kWhite, kWhite * 0.5f));
   EXPECT_EQ(b.farthest(), kInfinity);
