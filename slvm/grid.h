@@ -87,8 +87,8 @@ public:
   /// along u, one along v.
   const float* footprint[4] = {};
 
-  /// Of hits with neighbours: nobody reads the neighbours' results, so that a shader leaves them out behind its
-  /// last derivative; neither lights nor what runs after it may have derivatives of their own.
+  /// Of hits with neighbours: nobody reads the neighbours' results, so that a shader leaves them out behind
+  /// its last derivative; neither lights nor what runs after it may have derivatives of their own.
   bool neighbours_end = false;
 
   /// What rayinfo() tells.

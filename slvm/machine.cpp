@@ -122,7 +122,8 @@ void find_strip_operands(Instance::Bound& bound, const Program& program) {
   }
 }
 
-// Behind the last call that looks at neighbouring points, or may, and all regions it is in: a loop comes back to it.
+// Behind the last call that looks at neighbouring points, or may, and all regions it is in: a loop comes back
+// to it.
 uint32_t find_last_derivative(const Program& program) {
   uint32_t last = 0;
   int depth = 0;

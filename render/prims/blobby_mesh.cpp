@@ -22,8 +22,8 @@ public:
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
     flat_.evaluate(at, out);
     at.for_each([&](size_t k, float a, float b) {
-      out.N[k] = (normals_[0] * (1 - a) + normals_[1] * a) * (1 - b) +
-                 (normals_[2] * (1 - a) + normals_[3] * a) * b;
+      out.N[k] =
+          (normals_[0] * (1 - a) + normals_[1] * a) * (1 - b) + (normals_[2] * (1 - a) + normals_[3] * a) * b;
     });
   }
 

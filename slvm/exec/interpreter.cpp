@@ -164,8 +164,8 @@ void ShaderRun::shoot_from_samples(const GridCall& call, GridOp op) {
   }
 }
 
-// Where no derivative follows, the points beside hits are done with, if nobody else wants them. A light is part
-// of the surface it shines on.
+// Where no derivative follows, the points beside hits are done with, if nobody else wants them. A light is
+// part of the surface it shines on.
 void ShaderRun::leave_neighbours(Frame& f, MaskStack& m, uint32_t pc) {
   const size_t samples = state.grid->samples();
   if (!state.grid->neighbours_end || !in_body_ || points == samples || pc < bound.last_derivative ||
@@ -258,8 +258,9 @@ bool ShaderRun::take_round(uint32_t pc, size_t lanes) {
 
 namespace {
 
-/// Whether the rest of a region is left out, since no lane is on. Strips that derivatives read go on: other lanes look at
-/// values of theirs. But not in a loop, which all lanes have left: another round must not change what it leaves behind.
+/// Whether the rest of a region is left out, since no lane is on. Strips that derivatives read go on: other
+/// lanes look at values of theirs. But not in a loop, which all lanes have left: another round must not
+/// change what it leaves behind.
 bool stops(const Frame& f, const MaskStack& m) {
   return !m.any() && (!f.runs_idle || m.within_loop());
 }

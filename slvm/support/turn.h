@@ -1,4 +1,5 @@
-// Sine and cosine of parts of a turn, inline and without branches, for loops that compilers vectorise. PUBLIC.
+// Sine and cosine of parts of a turn, inline and without branches, for loops that compilers vectorise.
+// PUBLIC.
 #pragma once
 
 #include <numbers>
