@@ -111,6 +111,49 @@ TEST(Footprint, of_sphere_mirrors) {
       expect_footprint(s, sphere_mirror(x, y, 1e-4f), 0.02f);
 }
 
+TEST(Geometry, points_in_pairs_are_those_of_lattices) {
+  RayScene s(
+      "WorldBegin " + kSeen +
+      "Sphere 1 -.5 .8 300 Torus 2 .5 0 300 270 Paraboloid 1 .2 1 360 Hyperboloid 1 0 0 1 1 1 360 Disk 0 1 "
+      "360 "
+      "Patch \"bilinear\" \"P\" [0 0 0 2 0 0 0 1 1 2 2 0] "
+      "Patch \"bicubic\" \"P\" [-3 -3 0 -1 -3 2 1 -3 -2 3 -3 0  -3 -1 2 -1 -1 3 1 -1 0 3 -1 2 "
+      "-3 1 0 -1 1 -3 1 1 3 3 1 0  -3 3 0 -1 3 2 1 3 -2 3 3 0] "
+      "NuPatch 3 3 [0 0 0 1 1 1] 0 1 3 3 [0 0 0 1 1 1] 0 1 "
+      "\"Pw\" [0 0 0 1 1 0 1 2 2 0 0 1  0 1 1 1 1 1 0 1 2 1 1 1  0 2 0 1 1 2 1 1 2 2 0 3] "
+      "PointsPolygons [3 4] [0 1 2 2 1 3 4] \"P\" [0 0 0 1 0 0 0 1 0 2 0 1 1 1 1] "
+      "SubdivisionMesh \"catmull-clark\" [4 4] [0 1 4 3 1 2 5 4] [\"interpolateboundary\"] [0 0] [] [] "
+      "\"P\" [0 0 0 1 0 0 2 0 1 0 1 0 1 1 1 2 1 0] "
+      "Curves \"cubic\" [4] \"nonperiodic\" \"P\" [0 0 0 1 1 0 2 0 1 3 1 0] \"constantwidth\" [.2] "
+      "Points \"P\" [0 0 0 1 1 1] WorldEnd");
+  ASSERT_EQ(s.messages(), "");
+  std::vector<float> u, v, pair_u, pair_v;
+  for (int i = 0; i < 11; ++i) {
+    u.push_back(static_cast<float>(i) / 10);
+    v.push_back(static_cast<float>(10 - i) / 10);
+  }
+  for (float b : v)
+    for (float a : u) {
+      pair_u.push_back(a);
+      pair_v.push_back(b);
+    }
+  size_t kinds = 0;
+  for (const Primitive& p : s.scene().primitives) {
+    SurfaceLattice lattice, pairs;
+    p.geometry->evaluate({u, v}, lattice);
+    p.geometry->evaluate({pair_u, pair_v, true}, pairs);
+    ASSERT_EQ(lattice.P.size(), pairs.P.size());
+    ++kinds;
+    for (size_t k = 0; k < pairs.P.size(); ++k) {
+      EXPECT_LT(glm::distance(lattice.P[k], pairs.P[k]), 1e-5f) << kinds << ' ' << k;
+      EXPECT_LT(glm::distance(lattice.N[k], pairs.N[k]), 1e-4f) << kinds << ' ' << k;
+      EXPECT_LT(glm::distance(lattice.dPdu[k], pairs.dPdu[k]), 1e-4f) << kinds << ' ' << k;
+      EXPECT_LT(glm::distance(lattice.dPdv[k], pairs.dPdv[k]), 1e-4f) << kinds << ' ' << k;
+    }
+  }
+  EXPECT_GE(kinds, 12u);
+}
+
 TEST(HitGrid, neighbours_lie_where_neighbouring_rays_hit) {
   RayScene s("WorldBegin " + kSeen + "Translate 0 0 -6 Rotate 20 1 1 0 Sphere 3 -3 3 360 WorldEnd");
   RayFan fan = sphere_mirror(0.01f, -0.02f, 2e-4f);
