@@ -222,6 +222,7 @@ struct ShadedScene {
   const char *name, *rib;
   std::string shader;
   int balls;
+  bool differ = false; ///< not all have the same shader
 };
 
 /// Rays from beside the eye to the balls, those of one grid's points one after the other.
@@ -249,8 +250,10 @@ void compare_with_grid(const ShadedScene& scene) {
   for (int i = 0; i < scene.balls; ++i)
     rib += scene.balls == 1
                ? std::string("Translate 0 0 5 Sphere 1 -1 1 360 ")
-               : fmt::format("TransformBegin Translate {} {} 5 Sphere .4 -.4 .4 360 TransformEnd ",
-                             i % 16 - 7.5, i / 16 - 7.5);
+               : fmt::format(
+                     "{} TransformBegin Translate {} {} 5 Sphere .4 -.4 .4 360 TransformEnd ",
+                     scene.differ && i % 32 == 0 ? fmt::format("Surface \"shiny\" \"Kd\" {}", .001 * i) : "",
+                     i % 16 - 7.5, i / 16 - 7.5);
   RayScene s(rib + "WorldEnd", {{"shiny", scene.shader}, {"spot", kSpot}});
   Rays rays = rays_to_balls(scene);
   slvm::ShadingState state = (s.asking_grid(1, 1, 0), s.state());
@@ -301,6 +304,7 @@ void compare_with_grids() {
   compare_with_grid({"noise with derivatives (three points a hit)", "", slopes, 1});
   compare_with_grid({"three lights", lit, kPlastic, 1});
   compare_with_grid({"three lights, 256 balls", lit, kPlastic, 256});
+  compare_with_grid({"three lights, 256 balls, 8 shaders", lit, kPlastic, 256, true});
 }
 
 } // namespace

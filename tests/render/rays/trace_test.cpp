@@ -106,6 +106,30 @@ TEST(Trace, hits_run_displacement_surface_and_atmosphere) {
   EXPECT_THAT(s.value(ray, "primitive:s", Type::kFloat, unshaded), ElementsAre(FloatNear(0.25f, 1e-5f)));
 }
 
+TEST(Trace, messages_come_from_shaders_of_the_same_object) {
+  // Hits that follow each other in one context: what the first object's shaders left must not be found by the
+  // second one, which has none of these.
+  RayScene s(world("Surface \"ask\" TransformBegin Displacement \"lift\" Atmosphere \"haze\" "
+                   "Polygon \"P\" [-3 -1 4 -1 -1 4 -1 1 4 -3 1 4] TransformEnd "
+                   "AttributeBegin Displacement \"null\" Atmosphere \"null\" "
+                   "Polygon \"P\" [1 -1 4 3 -1 4 3 1 4 1 1 4] AttributeEnd"),
+             {{"ask", "surface ask(output varying float a = 0, b = 0) { float x = 0, y = 0;"
+                      " a = displacement(\"height\", x); a += x; b = atmosphere(\"depth\", y); b += y; }"},
+              {"lift", "displacement lift(output varying float height = 0) { height = 5; }"},
+              {"haze", "volume haze(float depth = 7) { Ci *= 2; }"}});
+  EXPECT_EQ(s.messages(), "");
+  TestRay with{{-2, 0.1f, 0}}, without{{2, 0.1f, 0}};
+  for (int i = 0; i < 3; ++i) {
+    auto hits =
+        s.trace({with, without}, {RayScene::output(slvm::RayOutput::From::kSurface, "a", Type::kFloat),
+                                  RayScene::output(slvm::RayOutput::From::kSurface, "b", Type::kFloat)});
+    EXPECT_THAT(hits[0].values[0], ElementsAre(6));
+    EXPECT_THAT(hits[0].values[1], ElementsAre(8));
+    EXPECT_THAT(hits[1].values[0], ElementsAre(0));
+    EXPECT_THAT(hits[1].values[1], ElementsAre(0));
+  }
+}
+
 TEST(Trace, volumes_of_the_side_that_is_hit) {
   // The ray comes from no surface with volumes of its own.
   const std::map<std::string, std::string> shaders = {
