@@ -2,9 +2,10 @@
 # (.ci/packages.txt). Everything else is CMake: see CMakePresets.json.
 JOBS ?= $(shell nproc)
 
-.PHONY: help demo test build asan tsan core fuzz bench format tidy docs install clean
+.PHONY: help demo gallery test build asan tsan core fuzz bench format tidy docs install clean
 help:
 	@echo "make demo      compile the standard shaders, test one, render docs/demo/demo.rib"
+	@echo "make gallery   render the scenes of docs/gallery, and a page with pictures and times"
 	@echo "make test      build with assertions and run all tests"
 	@echo "make asan      the same under the address and undefined-behaviour sanitizers (tsan: threads)"
 	@echo "make core      compiler, virtual machine and their tests only, without renderer"
@@ -27,6 +28,12 @@ build:
 demo:
 	$(call build,release,tools)
 	@.ci/demo build/release
+
+# One pass at a time, so that times can be compared.
+gallery:
+	$(call build,release,tools)
+	@build/release/bin/slpass -j 1 -o build/gallery --page build/gallery/index.html $(dir $(wildcard docs/gallery/*/passes.toml))
+	@echo "The page is build/gallery/index.html"
 
 test:
 	$(call build,relassert)

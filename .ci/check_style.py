@@ -71,7 +71,7 @@ def main():
     problems = []
     code = set(tree.cpp_files())
     for path in tree.files():
-        if path.endswith((".png", ".exr", ".tif", ".slo", ".pyc")) or "/corpus/" in path:
+        if path.endswith((".png", ".jpg", ".exr", ".tif", ".slo", ".pyc")) or "/corpus/" in path:
             continue
         text = tree.read(path)
         if path in code:

@@ -12,7 +12,8 @@ def files(*endings):
     for folder, folders, names in os.walk(ROOT):
         folders[:] = [d for d in folders if d == ".ci" or not (d.startswith(".") or d in ("build", "__pycache__"))]
         path = os.path.relpath(folder, ROOT)
-        found += [os.path.normpath(os.path.join(path, n)) for n in names if not endings or n.endswith(endings)]
+        # .git is a file where the tree is a second one of its repository.
+        found += [os.path.normpath(os.path.join(path, n)) for n in names if n != ".git" and (not endings or n.endswith(endings))]
     return sorted(found)
 
 

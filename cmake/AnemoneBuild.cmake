@@ -77,9 +77,12 @@ function(sl_module name)
   install(TARGETS ${name} LIBRARY DESTINATION lib/anemone)
 endfunction()
 
-# sl_unit_test(NAME sources... LIBS libs...): a GoogleTest binary whose cases CTest lists one by one.
+# sl_unit_test(NAME sources... LIBS libs... [LABEL slow]): a GoogleTest binary whose cases CTest lists one by one.
 function(sl_unit_test name)
-  cmake_parse_arguments(arg "" "" "LIBS" ${ARGN})
+  cmake_parse_arguments(arg "" "LABEL" "LIBS" ${ARGN})
+  if(NOT arg_LABEL)
+    set(arg_LABEL fast)
+  endif()
   find_package(GTest REQUIRED)
   include(GoogleTest)
   add_executable(${name} ${arg_UNPARSED_ARGUMENTS})
@@ -89,7 +92,7 @@ function(sl_unit_test name)
   if(ANEMONE_SANITIZE) # many times slower
     set(timeout 900)
   endif()
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS fast TIMEOUT ${timeout})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${timeout})
 endfunction()
 
 # sl_embed(TARGET HEADER FUNCTION PREFIX PATTERN): the files that match, as texts in the library: FUNCTION, declared in

@@ -1,6 +1,13 @@
-# sl_shader_tests(PREFIX files...): one CTest for each test file of sltest.
+# sl_shader_tests(PREFIX files...): one CTest for each test file of sltest. Without the renderer there are no scenes and no
+# textures: files that have some are left out.
 function(sl_shader_tests prefix)
   foreach(file IN LISTS ARGN)
+    if(NOT ANEMONE_RENDER)
+      file(STRINGS ${file} needed REGEX "^scene = |\\.exr\"")
+      if(needed)
+        continue()
+      endif()
+    endif()
     get_filename_component(name ${file} NAME_WE)
     add_test(NAME ${prefix}.${name} COMMAND sltest ${file})
     set_tests_properties(${prefix}.${name} PROPERTIES LABELS fast)

@@ -50,6 +50,9 @@ enum class Lattice : uint8_t {
   /// differentiate, nv is 3: rows 1 and 2 hold, for each, a point beside it, one step along u (du, varying)
   /// and one along v.
   kHits,
+  /// Pieces of surfaces one above the other, piece_rows rows each: those of different pieces have nothing to
+  /// do with each other.
+  kPieces,
 };
 
 class Grid {
@@ -81,7 +84,11 @@ public:
   /// The points that count: of hits, row 0.
   size_t samples() const { return lattice == Lattice::kHits ? static_cast<size_t>(nu_) : points(); }
 
+  /// Rows that are neighbours of each other.
+  int rows_of_piece() const { return lattice == Lattice::kPieces ? piece_rows : nv_; }
+
   Lattice lattice = Lattice::kRows;
+  int piece_rows = 0; ///< a divisor of nv
   /// Of hits, nu floats each, the renderer's own memory: how many steps along u and along v a ray's footprint
   /// reaches in the one direction, then in the other one; texture lookups filter over it. Null: one step
   /// along u, one along v.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 
 namespace render {
@@ -29,9 +30,10 @@ slvm::Result<FileFormat> choose_format(const DisplayRequest& d) {
   if (t == "zfile" || t == "shadow") return FileFormat{"tiff", "z"};
   if (t == "file" || t == "framebuffer" || t == "it") {
     if (!extension.empty() && known(extension))
-      return FileFormat{extension == "tif" ? "tiff" : extension, extension};
+      return FileFormat{extension == "tif" ? "tiff" : extension == "jpg" ? "jpeg" : extension, extension};
     return FileFormat{"tiff", "tif"};
   }
+  if (t == "jpg" && known(t)) return FileFormat{"jpeg", t};
   if (known(t)) return FileFormat{t, t};
   return slvm::Error{
       fmt::format("unknown type \"{}\"; expected \"tiff\", \"png\", \"openexr\", \"file\", \"null\" or "
@@ -53,7 +55,20 @@ std::vector<std::string_view> compressions(const std::string& plugin) {
   if (plugin == "tiff") return {"none", "lzw", "zip", "packbits", "ccittrle"};
   if (plugin == "openexr")
     return {"none", "rle", "zip", "zips", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
+  if (plugin == "jpeg") return {"jpeg:1 to jpeg:100"};
   return {};
+}
+
+bool is_compression(const std::string& plugin, std::string_view name) {
+  if (plugin == "jpeg") {
+    int quality = 0;
+    if (!name.starts_with("jpeg:")) return false;
+    name.remove_prefix(5);
+    auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), quality);
+    return error == std::errc() && end == name.data() + name.size() && quality >= 1 && quality <= 100;
+  }
+  auto known = compressions(plugin);
+  return std::find(known.begin(), known.end(), name) != known.end();
 }
 
 std::string lower_case(std::string text) {
@@ -65,9 +80,8 @@ std::string lower_case(std::string text) {
 void add_parameters(const DisplayRequest& d, ImageFile& file) {
   for (const auto& [name, value] : d.params) {
     if (name == "compression") {
-      auto known = compressions(file.format);
       std::string wanted = lower_case(value.strings[0]);
-      if (std::find(known.begin(), known.end(), wanted) != known.end()) file.compression = wanted;
+      if (is_compression(file.format, wanted)) file.compression = wanted;
     } else if (name == "resolution") {
       file.attributes["XResolution"] = {slvm::Type::kFloat, 0, {value.numbers[0]}, {}};
       file.attributes["YResolution"] = {slvm::Type::kFloat, 0, {value.numbers[1]}, {}};

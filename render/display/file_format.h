@@ -22,8 +22,10 @@ slvm::Result<FileFormat> choose_format(const DisplayRequest&);
 /// What a channel becomes: quantised integers or floats.
 PixelType pixel_type(const Quantization&, const std::string& plugin);
 
-/// The compressions a format has, in lower case; empty: it has its own and no choice.
+/// The compressions a format has, in lower case, as told to users; empty: it has its own and no choice.
 std::vector<std::string_view> compressions(const std::string& plugin);
+/// Whether a name, in lower case, is one of them. That of JPEG says the quality: "jpeg:85".
+bool is_compression(const std::string& plugin, std::string_view name);
 
 std::string lower_case(std::string text);
 

@@ -132,7 +132,7 @@ void warn_of_compression(const DisplayRequest& d, slvm::Diagnostics& diagnostics
     diagnostics.warning(
         d.where, "display",
         fmt::format("Display: \"compression\" has no effect: {} files have no choice of it", format->plugin));
-  else if (std::find(known.begin(), known.end(), wanted) == known.end())
+  else if (!is_compression(format->plugin, wanted))
     diagnostics.warning(d.where, "display",
                         fmt::format("Display: {} files have no compression \"{}\"; known are {}",
                                     format->plugin, wanted, fmt::join(known, ", ")));

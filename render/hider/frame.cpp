@@ -12,6 +12,7 @@
 #include "render/hider/sample_buffer.h"
 #include "render/hider/task_batch.h"
 #include "render/prims/dice.h"
+#include "render/prims/join_tasks.h"
 #include "render/prims/motion.h"
 #include "render/prims/split.h"
 
@@ -166,6 +167,7 @@ void FrameRenderer::split_all() {
   tbb::parallel_for(size_t{0}, chunks, [&](size_t c) {
     for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
       split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
+    join_tasks(scene_.primitives, parts[c]);
   });
   size_t tasks = 0;
   for (const auto& part : parts)
@@ -271,7 +273,9 @@ void FrameRenderer::count(const Primitive& primitive, const slvm::Grid& grid,
   cost.points += grid.points();
   ++report.shaded_grids;
   report.shaded_points += grid.points();
-  report.micropolygons += static_cast<size_t>(grid.nu() - 1) * static_cast<size_t>(grid.nv() - 1);
+  int rows = grid.rows_of_piece();
+  report.micropolygons +=
+      static_cast<size_t>(grid.nu() - 1) * static_cast<size_t>(grid.nv() / rows * (rows - 1));
 }
 
 /// Null when nothing of the grid can be seen.
@@ -283,10 +287,11 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
   DiceContext context{&camera_, &shading_.strings(), options_.shutter_open + options_.shutter_offset,
                       options_.shutter_close - options_.shutter_open};
   slvm::Grid& grid = worker.grid;
-  dice(primitive, task, id, context, grid);
+  std::span<const Primitive> pieces = batch.primitives.subspan(task.primitive, task.pieces);
+  dice(pieces, task, id, context, grid);
   auto started = std::chrono::steady_clock::now();
   std::optional<GridOutline> outline;
-  if (!primitive.geometry->ruled() && primitive.attributes().stitch)
+  if (!primitive.geometry->ruled() && primitive.attributes().stitch && pieces.size() == 1)
     outline = find_outline(grid, task.rect, camera_, task.step);
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
   std::vector<float> times = motion_times(primitive);
@@ -297,10 +302,12 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
     return nullptr;
   std::vector<slvm::Grid> moved;
   for (size_t i = 1; i < times.size(); ++i) {
-    Primitive there = primitive_at(primitive, times[i]);
+    std::vector<Primitive> there;
+    for (const Primitive& piece : pieces)
+      there.push_back(primitive_at(piece, times[i]));
     slvm::Grid& later = moved.emplace_back(2, 2);
     dice(there, task, id, context, later);
-    worker.shader->displace(there, later);
+    worker.shader->displace(there.front(), later);
   }
   if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);
   worker.shader->shade(primitive, grid);

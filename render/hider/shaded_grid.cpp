@@ -29,6 +29,14 @@ void hide_where(const slvm::Grid& grid, ShadedGrid& out, ShadedGrid::Visibility 
     }
 }
 
+void hide_between_pieces(const slvm::Grid& grid, ShadedGrid& out) {
+  auto nu = static_cast<size_t>(out.nu), nv = static_cast<size_t>(out.nv);
+  auto rows = static_cast<size_t>(grid.rows_of_piece());
+  for (size_t j = rows - 1; j + 1 < nv; j += rows)
+    std::fill_n(out.hidden.begin() + static_cast<std::ptrdiff_t>(j * (nu - 1)), nu - 1,
+                ShadedGrid::kNotDrawn);
+}
+
 void hide_behind_eye(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
   float nearest = camera.perspective() ? camera.near_plane() : -kInfinity;
   hide_where(grid, out, ShadedGrid::kNotDrawn, [&](const Vec3(&p)[4]) {
@@ -103,6 +111,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   out.solid = primitive.state->solid;
   out.solid_primitive = primitive.state->solid_primitive;
   out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), ShadedGrid::kDrawn);
+  hide_between_pieces(grid, out);
   hide_behind_eye(grid, camera, out);
   if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
   if (outline) snap_to_outline(*outline, out.nu, out.nv, out.position);

@@ -2,6 +2,7 @@
 #include "render/hider/task_batch.h"
 
 #include "render/hider/random.h"
+#include "render/prims/join_tasks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,6 +114,7 @@ void LazyContent::make(LazyBatch& lazy) {
   batch.primitives = batch.owned;
   for (uint32_t k = 0; k < batch.owned.size(); ++k)
     split_primitive(batch.owned[k], k, split_, batch.tasks);
+  join_tasks(batch.owned, batch.tasks);
   batch.measure_solids(camera_);
   batch.slots = std::make_unique<GridSlot[]>(batch.tasks.size());
   lazy.tasks_of.resize(lazy.buckets.count());

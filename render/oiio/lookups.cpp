@@ -53,6 +53,20 @@ private:
 struct Footprint {
   float s, t, s_u, t_u, s_v, t_v;
   bool is_point() const { return s_u == 0 && t_u == 0 && s_v == 0 && t_v == 0; }
+  bool has_place() const { return std::isfinite(s) && std::isfinite(t); }
+  /// OpenImageIO aborts when it is to blur a region that has a length but no width, or sides that are not
+  /// numbers.
+  void make_usable() {
+    if (!std::isfinite(s_u) || !std::isfinite(t_u)) s_u = t_u = 0;
+    if (!std::isfinite(s_v) || !std::isfinite(t_v)) s_v = t_v = 0;
+    float along_u = std::hypot(s_u, t_u), along_v = std::hypot(s_v, t_v),
+          longest = std::max(along_u, along_v);
+    constexpr float kThin = 1e-3f; // thinner than any filter is
+    if (longest == 0 || std::abs(s_u * t_v - t_u * s_v) > kThin * longest * longest) return;
+    if (along_v > along_u) s_u = s_v, t_u = t_v;
+    s_v = -kThin * t_u;
+    t_v = kThin * s_u;
+  }
 };
 
 // OpenImageIO chooses the level by the region; the filter within a level is its nearest relative of what is
@@ -88,11 +102,17 @@ std::string look_up(System& system, const std::string& file, const TextureLookup
   for (size_t i = 0; i < l.points; ++i) {
     if (!l.active(i)) continue;
     Footprint f = at(i);
+    if (!f.has_place()) {
+      for (size_t c = 0; c < l.channels; ++c)
+        l.result[c][i] = 0;
+      continue;
+    }
     OIIO::TextureOpt o = plain; // lookups change it
     o.swrap = swrap;
     o.twrap = twrap;
     o.sblur = TextureLookup::at(l.sblur, i);
     o.tblur = TextureLookup::at(l.tblur, i);
+    if (o.sblur != 0 || o.tblur != 0) f.make_usable();
     set_point_mode(o, l, f.is_point() && o.sblur == 0 && o.tblur == 0);
     float result[TextureLookup::kMost] = {};
     if (!system->texture(map, thread, o, f.s, f.t, f.s_u, f.t_u, f.s_v, f.t_v, static_cast<int>(l.channels),

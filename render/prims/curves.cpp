@@ -191,6 +191,7 @@ public:
   /// Of a linear curve.
   BilinearPatch strip(const CurvePiece& piece) const;
 
+  bool differs_by_piece() const override { return differs_; }
   size_t count() const override { return vars_.size(); }
   PatchVar make(size_t index, uint32_t piece) const override;
 
@@ -217,6 +218,7 @@ private:
   std::vector<TypedParam> vars_;
   EyeInObject eye_;
   const TypedParam *width_, *normals_;
+  bool differs_;
   std::vector<CurvePiece> pieces_;
 };
 
@@ -224,7 +226,7 @@ CurveSet::CurveSet(const CurveLayout& layout, std::span<const int> points_of_cur
                    std::vector<TypedParam> vars, const EyeInObject& eye)
     : layout_(layout), to_bezier_(to_bezier(layout.basis)), P_(std::move(P)), vars_(std::move(vars)),
       eye_(eye), width_(find(vars_, "width", slvm::Type::kFloat)),
-      normals_(find(vars_, "N", slvm::Type::kNormal)) {
+      normals_(find(vars_, "N", slvm::Type::kNormal)), differs_(has_own(vars_, StorageClass::kUniform)) {
   if (!width_) width_ = find(vars_, "constantwidth", slvm::Type::kFloat);
   size_t segments = 0;
   for (int n : points_of_curve)

@@ -1,6 +1,7 @@
 // Dicing: lattice positions, tangents, normals, texture coordinates, colours and primitive variables.
 #include "render/prims/dice.h"
 
+#include <algorithm>
 #include <array>
 
 namespace render {
@@ -242,6 +243,20 @@ void Dicer::set_primvar(size_t index, const VarFilter& is_read) {
   fill(index, grid_.add_varying_primvar(var.name, var.type, var.elements));
 }
 
+/// du or dv, from the part of the shaders' u and v that each piece is: varying only where pieces differ.
+template <class Step>
+void set_steps(slvm::Grid& grid, Global g, std::span<const Primitive> pieces, Step&& step) {
+  float first = step(pieces.front().uv);
+  grid.set_uniform(g, {&first, 1});
+  bool same =
+      std::all_of(pieces.begin(), pieces.end(), [&](const Primitive& p) { return step(p.uv) == first; });
+  if (same) return;
+  float* steps = grid.varying(g);
+  size_t points = grid.points() / pieces.size();
+  for (size_t i = 0; i < pieces.size(); ++i)
+    std::fill_n(steps + i * points, points, step(pieces[i].uv));
+}
+
 } // namespace
 
 slvm::Global replaced_variable(const PatchVar& var) {
@@ -257,23 +272,33 @@ bool is_st(const PatchVar& var) {
   return var.name == "st" && var.elements == 2 && var.type == slvm::Type::kFloat;
 }
 
-void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context,
+void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
           slvm::Grid& grid) {
-  grid.reset(task.nu, task.nv);
+  grid.reset(task.nu, task.nv * static_cast<int>(pieces.size()));
+  if (pieces.size() > 1) {
+    grid.lattice = slvm::Lattice::kPieces;
+    grid.piece_rows = task.nv;
+  }
   grid.derivatives = true;
   grid.id = id;
   std::vector<float> u = parameters(task.rect.u0, task.rect.u1, task.nu),
                      v = parameters(task.rect.v0, task.rect.v1, task.nv);
   const UvPoints at{u, v};
-  const SurfacePoints points{&primitive, at};
-  SurfaceLattice lattice;
-  primitive.geometry->evaluate(at, lattice);
-  dice_points({&points, 1}, lattice, context, {}, grid);
-  const UvRect& whole = primitive.uv;
-  float du = (whole.u1 - whole.u0) * (u.back() - u.front()) / static_cast<float>(u.size() - 1);
-  float dv = (whole.v1 - whole.v0) * (v.back() - v.front()) / static_cast<float>(v.size() - 1);
-  grid.set_uniform(Global::kdu, {&du, 1});
-  grid.set_uniform(Global::kdv, {&dv, 1});
+  std::vector<SurfacePoints> parts;
+  SurfaceLattice lattice, piece_lattice;
+  for (const Primitive& piece : pieces) {
+    parts.push_back({&piece, at, lattice.P.size()});
+    piece.geometry->evaluate(at, piece_lattice);
+    if (pieces.size() == 1)
+      std::swap(lattice, piece_lattice);
+    else
+      lattice.append(piece_lattice);
+  }
+  dice_points(parts, lattice, context, {}, grid);
+  float du = (u.back() - u.front()) / static_cast<float>(u.size() - 1);
+  float dv = (v.back() - v.front()) / static_cast<float>(v.size() - 1);
+  set_steps(grid, Global::kdu, pieces, [&](const UvRect& whole) { return (whole.u1 - whole.u0) * du; });
+  set_steps(grid, Global::kdv, pieces, [&](const UvRect& whole) { return (whole.v1 - whole.v0) * dv; });
 }
 
 void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
@@ -284,17 +309,18 @@ void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lat
 void renew_geometry(const Camera& camera, slvm::Grid& grid) {
   Triple P = triple(grid, Global::kP), Ng = triple(grid, Global::kNg), dPdu = triple(grid, Global::kdPdu),
          dPdv = triple(grid, Global::kdPdv), I = triple(grid, Global::kI);
-  float du = grid.variable(Global::kdu).get(0, 0), dv = grid.variable(Global::kdv).get(0, 0);
-  auto nu = static_cast<size_t>(grid.nu()), nv = static_cast<size_t>(grid.nv());
+  const slvm::Planes &du = grid.variable(Global::kdu), &dv = grid.variable(Global::kdv);
+  auto nu = static_cast<size_t>(grid.nu()), nv = static_cast<size_t>(grid.nv()),
+       rows = static_cast<size_t>(grid.rows_of_piece());
   float sign = grid.flip_normals ? -1.0f : 1.0f;
   for (size_t j = 0; j < nv; ++j)
     for (size_t i = 0; i < nu; ++i) {
       size_t k = j * nu + i;
       // Central differences inside, one-sided ones at the edges.
-      size_t i0 = i > 0 ? i - 1 : i, i1 = i + 1 < nu ? i + 1 : i, j0 = j > 0 ? j - 1 : j,
-             j1 = j + 1 < nv ? j + 1 : j;
-      Vec3 along_u = (P.get(j * nu + i1) - P.get(j * nu + i0)) / (static_cast<float>(i1 - i0) * du);
-      Vec3 along_v = (P.get(j1 * nu + i) - P.get(j0 * nu + i)) / (static_cast<float>(j1 - j0) * dv);
+      size_t i0 = i > 0 ? i - 1 : i, i1 = i + 1 < nu ? i + 1 : i;
+      size_t j0 = j % rows > 0 ? j - 1 : j, j1 = j % rows + 1 < rows ? j + 1 : j;
+      Vec3 along_u = (P.get(j * nu + i1) - P.get(j * nu + i0)) / (static_cast<float>(i1 - i0) * du.get(0, k));
+      Vec3 along_v = (P.get(j1 * nu + i) - P.get(j0 * nu + i)) / (static_cast<float>(j1 - j0) * dv.get(0, k));
       dPdu.set(k, along_u);
       dPdv.set(k, along_v);
       Vec3 n = glm::cross(along_u, along_v) * sign;

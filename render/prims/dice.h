@@ -21,9 +21,9 @@ struct DiceContext {
   float time = 0, dtime = 0;
 };
 
-/// Fills `grid` (its old content is dropped) with the lattice of `task`. `id` becomes part of the seed of
-/// random().
-void dice(const Primitive& primitive, const GridTask& task, uint64_t id, const DiceContext& context,
+/// Fills `grid` (its old content is dropped) with the lattice of `task`, whose pieces these are. `id` becomes
+/// part of the seed of random().
+void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
           slvm::Grid& grid);
 
 /// Points of one primitive that follow each other in a grid.

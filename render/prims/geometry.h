@@ -59,6 +59,12 @@ struct SurfaceLattice {
     dPdv.resize(points);
     N.resize(points);
   }
+  void append(const SurfaceLattice& more) {
+    P.insert(P.end(), more.P.begin(), more.P.end());
+    dPdu.insert(dPdu.end(), more.dPdu.begin(), more.dPdu.end());
+    dPdv.insert(dPdv.end(), more.dPdv.begin(), more.dPdv.end());
+    N.insert(N.end(), more.N.begin(), more.N.end());
+  }
 };
 
 class Geometry {

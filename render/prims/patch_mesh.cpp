@@ -99,7 +99,8 @@ public:
   MeshOfPatches(const MeshDirection& u, const MeshDirection& v, std::span<const Vec3> P,
                 std::span<const TypedParam> vars)
       : u_(u), v_(v), P_(P.begin(), P.end()), vars_(vars.begin(), vars.end()),
-        u_to_bezier_(to_bezier(u.basis)), v_to_bezier_(to_bezier(v.basis)) {
+        u_to_bezier_(to_bezier(u.basis)), v_to_bezier_(to_bezier(v.basis)),
+        differs_(has_own(vars, StorageClass::kUniform)) {
     patches_.reserve(static_cast<size_t>(u.patches()) * static_cast<size_t>(v.patches()));
     for (int j = 0; j < v.patches(); ++j)
       for (int i = 0; i < u.patches(); ++i)
@@ -123,6 +124,7 @@ public:
     return BicubicPatch(control);
   }
 
+  bool differs_by_piece() const override { return differs_; }
   size_t count() const override { return vars_.size(); }
   PatchVar make(size_t index, uint32_t piece) const override {
     const TypedParam& var = vars_[index];
@@ -144,6 +146,7 @@ private:
   std::vector<Vec3> P_;
   std::vector<TypedParam> vars_;
   Matrix4 u_to_bezier_, v_to_bezier_;
+  bool differs_;
   std::vector<MeshPiece> patches_;
 };
 

@@ -15,6 +15,8 @@ public:
   virtual size_t count() const = 0;
   /// Variable `var` of surface `piece`.
   virtual PatchVar make(size_t var, uint32_t piece) const = 0;
+  /// Whether a variable that replaces no predefined one is constant on each piece, but not the same on all.
+  virtual bool differs_by_piece() const { return true; }
   /// Adds a variable if this is the list of a single surface.
   virtual bool append(PatchVar&) { return false; }
 };

@@ -81,6 +81,7 @@ public:
   std::span<const PolygonPatch> patches() const { return patches_; }
   std::array<Vec3, 4> points(uint32_t face, uint32_t part) const;
   size_t count() const override { return vars_.size() + (default_st_ ? 1 : 0); }
+  bool differs_by_piece() const override { return differs_; }
   PatchVar make(size_t var, uint32_t piece) const override;
 
 private:
@@ -119,7 +120,7 @@ private:
   std::unordered_map<uint32_t, std::vector<Triangle>> cut_; ///< faces that are not convex
   std::vector<Vec3> P_;
   std::vector<TypedParam> vars_;
-  bool default_st_ = true;
+  bool default_st_ = true, differs_;
   std::vector<PolygonPatch> patches_;
 };
 
@@ -128,7 +129,8 @@ BilinearPatch PolygonPatch::patch() const {
 }
 
 PolygonMesh::PolygonMesh(PolygonFaces faces, std::vector<Vec3> P, std::vector<TypedParam> vars)
-    : vertices_(std::move(faces.vertices)), P_(std::move(P)), vars_(std::move(vars)) {
+    : vertices_(std::move(faces.vertices)), P_(std::move(P)), vars_(std::move(vars)),
+      differs_(has_own(vars_, StorageClass::kUniform)) {
   std::stable_partition(vars_.begin(), vars_.end(),
                         [](const TypedParam& v) { return !interpolates(v.declaration.storage); });
   for (const TypedParam& v : vars_)

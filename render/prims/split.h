@@ -14,8 +14,10 @@ namespace render {
 /// A piece that is ready to be diced.
 struct GridTask {
   uint32_t primitive = 0; ///< index in the scene
+  /// As many primitives from there on, the whole of each, one lattice above the other (join_tasks.h).
+  uint32_t pieces = 1;
   UvRect rect;
-  int nu = 2, nv = 2; ///< points of its lattice
+  int nu = 2, nv = 2; ///< points of the lattice, of each piece
   Vec2 raster_min, raster_max;
   float zmin = 0; ///< nearest camera z of its bound
   float step = 1; ///< side of a micropolygon in pixels

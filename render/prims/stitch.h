@@ -4,8 +4,8 @@
 // other point of the side is put on it.
 //
 // The outline: halve the side's parameter interval while it is longer than a quarter of the surface or its
-// ends are more than kOutlineStep micropolygons apart in the image, or one of them is more than half of that from its
-// middle. Grids have 2^n segments a side, so the outline's points are always among theirs.
+// ends are more than kOutlineStep micropolygons apart in the image, or one of them is more than half of that
+// from its middle. Grids have 2^n segments a side, so the outline's points are always among theirs.
 #pragma once
 
 #include "render/prims/geometry.h"

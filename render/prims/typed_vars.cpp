@@ -1,7 +1,10 @@
 // Variables of requests to variables of patches.
 #include "render/prims/typed_vars.h"
 
+#include "render/prims/dice.h"
 #include "render/prims/patches.h"
+
+#include <algorithm>
 
 namespace render {
 
@@ -56,6 +59,12 @@ PatchVar bicubic_var(const TypedParam& source, const std::array<size_t, 16>& ind
   for (size_t c = 0, width = var.width(); c < width; ++c)
     convert_to_bezier(ubasis, vbasis, &var.values[c], width);
   return var;
+}
+
+bool has_own(std::span<const TypedParam> vars, StorageClass storage) {
+  return std::any_of(vars.begin(), vars.end(), [&](const TypedParam& v) {
+    return v.declaration.storage == storage && replaced_variable(var_head(v)) == slvm::Global::kCount;
+  });
 }
 
 std::vector<float> point_weights(std::span<const TypedParam> vars) {

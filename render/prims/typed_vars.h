@@ -27,6 +27,10 @@ PatchVar bilinear_var(const TypedParam& source, const std::array<size_t, 4>& ind
 PatchVar bicubic_var(const TypedParam& source, const std::array<size_t, 16>& indices,
                      const CubicBasis& ubasis, const CubicBasis& vbasis);
 
+/// Whether a variable of this storage class replaces no predefined one: what VarSource::differs_by_piece()
+/// asks for.
+bool has_own(std::span<const TypedParam> vars, StorageClass storage);
+
 /// The weights that "Pw" gives the points; empty: all are one.
 std::vector<float> point_weights(std::span<const TypedParam> vars);
 

@@ -293,7 +293,7 @@ void HitShader::positions(const Primitive& primitive, const UvRect& rect, int nu
   task.nu = nu;
   task.nv = nv;
   auto bits = [](float x) { return static_cast<int64_t>(std::bit_cast<uint32_t>(x)); };
-  dice(primitive, task, hash_of(bits(rect.u0), bits(rect.v0), kDisplacedFaces), dice_, grid);
+  dice({&primitive, 1}, task, hash_of(bits(rect.u0), bits(rect.v0), kDisplacedFaces), dice_, grid);
   (*lease).context.displace(set_of(primitive), grid);
   const slvm::Planes& from = grid.variable(Global::kP);
   P.resize(grid.points());

@@ -40,9 +40,20 @@ private:
   std::unique_ptr<slvm::ir::ConstantEvaluator> evaluator_;
 };
 
+/// Whether a folder of the path has the source, and neither it nor one before it the compiled shader.
+bool source_comes_first(const std::string& name, const std::vector<std::string>& path) {
+  for (const std::string& folder : path) {
+    if (find_file(name + ".slo", {folder})) return false;
+    if (find_file(name + ".sl", {folder})) return true;
+  }
+  return false;
+}
+
 slvm::Result<std::string> CompilingLoader::load(const std::string& name,
                                                 const std::vector<std::string>& path) {
   bool as_it_is = name.ends_with(".slo");
+  // One's own "mirror" beats the one that comes with Anemone, compiled or not.
+  if (!as_it_is && source_comes_first(name, path)) return compile(*find_file(name + ".sl", path), name, path);
   if (auto compiled = find_file(as_it_is ? name : name + ".slo", path)) {
     auto bytes = load_compiled_shader(name, path);
     if (!bytes) return bytes;

@@ -227,7 +227,10 @@ bool BoundShaders::Binder::param_value(const ShaderRequest& request, const slvm:
     return false;
   }
   bool same_size = slvm::components(out.value.type) == slvm::components(declared->type);
-  if (same_size && (out.value.type == slvm::Type::kString) == text) {
+  bool both_text = (out.value.type == slvm::Type::kString) == text;
+  // "background" is predeclared as a color; the value itself tells that here it is a file.
+  bool says_so = text && !p.strings.empty();
+  if ((same_size && both_text) || says_so) {
     out.value.type = declared->type;
     out.value.elements = declared->elements;
   }

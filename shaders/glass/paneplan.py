@@ -66,6 +66,7 @@ def main(arguments):
     parser.add_argument("--pane", type=float, nargs=6, required=True, metavar=("X", "Y", "Z", "NX", "NY", "NZ"))
     parser.add_argument("--eye", type=float, nargs=3, metavar=("X", "Y", "Z"))
     parser.add_argument("--eta", type=float, default=1.33)
+    parser.add_argument("--out", help="a file for it, in place of standard output")
     given = parser.parse_args(arguments)
     point, normal = given.pane[:3], given.pane[3:]
     try:
@@ -79,10 +80,14 @@ def main(arguments):
             visible = [-x for x in unit(normal)]
     except ValueError as problem:
         sys.exit(f"paneplan.py: {problem}")
-    print(rib_matrix(matrix))
     # What lies on the side the plane's normal points to is clipped.
     hidden = [-x for x in visible]
-    print("ClippingPlane " + " ".join(f"{x:.9g}" for x in point + hidden))
+    text = f"{rib_matrix(matrix)}\nClippingPlane " + " ".join(f"{x:.9g}" for x in point + hidden) + "\n"
+    if given.out:
+        with open(given.out, "w", encoding="ascii") as file:
+            file.write(text)
+    else:
+        print(text, end="")
     return 0
 
 

@@ -47,9 +47,19 @@ waterbag(uniform string part = "front";
     /* Where the skin turns away from the viewer, what is behind is seen farther to the side. */
     vector side = vtransform("current", "camera", vector Nf);
     float soffset = -bend * xcomp(side) * abs(xcomp(side)), toffset = bend * ycomp(side) * abs(ycomp(side));
-    color behind = projectedpicture(back, P, soffset, toffset, 0);
+    float ss, tt;
+    color behind = 0;
+    /* Beside the far half there is what is around the bag. */
+    if (envmap != "")
+      behind = color environment(envmap, vtransform(envspace, refract(In, Nf, 1 / eta)));
+    if (back != "") {
+      if (pictureplace(back, P, ss, tt) != 0) {
+        color far = color texture(back, ss + soffset, tt + toffset);
+        float there = float texture(back[3], ss + soffset, tt + toffset, "fill", 1);
+        behind = far + (1 - there) * behind;
+      }
+    }
     if (contents != "") {
-      float ss, tt;
       if (pictureplace(contents, P, ss, tt) != 0) {
         color inside = color texture(contents, ss + soffset, tt + toffset);
         float alpha = float texture(contents[3], ss + soffset, tt + toffset, "fill", 1);

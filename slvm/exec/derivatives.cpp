@@ -12,7 +12,7 @@ struct StepSize {
   StepSize(const ShaderRun& run, bool along_u) {
     const Planes& p = run.state.grid->variable(along_u ? Global::kdu : Global::kdv);
     planes = p;
-    int n = along_u ? run.state.grid->nu() : run.state.grid->nv();
+    int n = along_u ? run.state.grid->nu() : run.state.grid->rows_of_piece();
     fallback = n > 1 ? 1.0f / static_cast<float>(n - 1) : 1.0f;
   }
   float at(size_t lane) const { return planes.data ? planes.data[planes.step ? lane : 0] : fallback; }

@@ -3,8 +3,8 @@
 // Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes
 // beside others that have none) one-sided; 0 where none does, and for all of a grid without extent in that
 // direction, and for what rays brought that are spread by chance. RISpec 3.2 leaves the scheme open; this is
-// PRMan's default ("derivatives" "centered" 1). Hits of rays (Lattice::kHits) have their own neighbours: all
-// three points of a hit share its differences.
+// PRMan's default ("derivatives" "centered" 1). Points of other pieces (Lattice::kPieces) are no neighbours.
+// Hits of rays (Lattice::kHits) have their own neighbours: all three points of a hit share its differences.
 #pragma once
 
 #include "slvm/exec/grid_ops.h"
@@ -23,12 +23,12 @@ public:
   template <class F> void for_each(bool along_u, F&& store) const {
     if (grid_.lattice == Lattice::kHits) return for_each_hit(along_u, store);
     int nu = grid_.nu(), nv = grid_.nv();
-    int n = along_u ? nu : nv;
+    int n = along_u ? nu : grid_.rows_of_piece();
     size_t stride = along_u ? 1 : static_cast<size_t>(nu);
     for (int iv = 0; iv < nv; ++iv)
       for (int iu = 0; iu < nu; ++iu) {
         size_t lane = static_cast<size_t>(iv) * static_cast<size_t>(nu) + static_cast<size_t>(iu);
-        int at = along_u ? iu : iv;
+        int at = along_u ? iu : iv % n;
         size_t lo = lane, hi = lane;
         if (differ_) {
           if (at > 0 && holds(lane - stride)) lo = lane - stride;

@@ -150,13 +150,13 @@ Planes ShaderRun::bind_variable(Global g, bool stored, const Operand* position, 
 Planes ShaderRun::lattice(Global g) {
   const Grid& grid = *state.grid;
   bool along_u = g == Global::ku || g == Global::kdu;
-  int n = along_u ? grid.nu() : grid.nv();
+  int n = along_u ? grid.nu() : grid.rows_of_piece();
   float step = n > 1 ? 1.0f / static_cast<float>(n - 1) : 1.0f;
   if (g == Global::kdu || g == Global::kdv) return take_uniform(Type::kFloat, {step});
   float* data = take(pitch);
   for (int iv = 0, i = 0; iv < grid.nv(); ++iv)
     for (int iu = 0; iu < grid.nu(); ++iu, ++i)
-      data[i] = static_cast<float>(along_u ? iu : iv) * (n > 1 ? step : 0);
+      data[i] = static_cast<float>(along_u ? iu : iv % n) * (n > 1 ? step : 0);
   std::fill(data + points, data + pitch, 0.0f);
   return {data, pitch, 1, Type::kFloat, 0};
 }

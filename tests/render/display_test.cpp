@@ -279,6 +279,16 @@ TEST_F(Display, compression_and_what_only_the_format_knows) {
               HasSubstr("Display: tiff files have no compression \"best\"; known are none, lzw, zip"));
   EXPECT_THAT(write("Display \"" + path("d.png") + "\" \"png\" \"rgb\" \"string compression\" \"none\""),
               HasSubstr("Display: \"compression\" has no effect: png files have no choice of it"));
+  // Of JPEG it is the quality.
+  auto jpeg = [&](const std::string& name, const char* compression) {
+    return write("Display \"" + path(name) + "\" \"file\" \"rgb\" \"string compression\" \"" + compression +
+                 "\"");
+  };
+  EXPECT_EQ(jpeg("good.jpg", "jpeg:95"), "");
+  EXPECT_EQ(jpeg("small.jpg", "JPEG:5"), "");
+  EXPECT_LT(std::filesystem::file_size(path("small.jpg")), std::filesystem::file_size(path("good.jpg")));
+  EXPECT_THAT(jpeg("wrong.jpg", "jpeg:0"),
+              HasSubstr("Display: jpeg files have no compression \"jpeg:0\"; known are jpeg:1 to jpeg:100"));
 }
 
 TEST_F(Display, previews_show_what_is_finished) {

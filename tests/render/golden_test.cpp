@@ -1,9 +1,7 @@
-// Pictures compared with the ones in tests/render/golden, which were looked at. With ANEMONE_UPDATE_GOLDEN
-// set the test writes them anew: look at them before they are committed.
+// Pictures compared with the ones in tests/render/golden.
+#include "tests/render/golden_picture.h"
 #include "tests/temp_folder.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,25 +22,8 @@ protected:
         fmt::format("cd '{}' && '{}' --shaders '{}/shaders:@' --archives '{}' before.rib '{}/{}.rib'",
                     directory_.string(), SLRENDER_PROGRAM, GOLDEN_FOLDER, GOLDEN_FOLDER, GOLDEN_FOLDER, name);
     ASSERT_EQ(std::system(command.c_str()), 0);
-    OIIO::ImageBuf now((directory_ / "out.exr").string());
-    ASSERT_TRUE(now.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << now.geterror();
-    std::string golden = fmt::format("{}/{}.exr", GOLDEN_FOLDER, picture);
-    if (std::getenv("ANEMONE_UPDATE_GOLDEN")) {
-      OIIO::ImageSpec spec = now.spec();
-      spec.attribute("compression", "zip");
-      spec.erase_attribute("Software");
-      OIIO::ImageBuf copy(spec);
-      OIIO::ImageBufAlgo::copy(copy, now, OIIO::TypeDesc::FLOAT);
-      copy.specmod().attribute("compression", "zip");
-      ASSERT_TRUE(copy.write(golden, OIIO::TypeDesc::HALF)) << copy.geterror();
-    }
-    OIIO::ImageBuf kept(golden);
-    ASSERT_TRUE(kept.read(0, 0, true, OIIO::TypeDesc::FLOAT)) << golden << ": " << kept.geterror();
-    // Halves keep three digits; pictures differ a little between instruction sets.
-    auto difference = OIIO::ImageBufAlgo::compare(now, kept, 0.05f, 0.02f);
-    EXPECT_LT(difference.rms_error, 0.004) << golden;
-    EXPECT_LT(difference.maxerror, 0.08) << golden << ": pixel " << difference.maxx << " " << difference.maxy
-                                         << " channel " << difference.maxc;
+    anemone::test::expect_golden((directory_ / "out.exr").string(),
+                                 fmt::format("{}/{}.exr", GOLDEN_FOLDER, picture));
   }
 
   anemone::test::TempFolder directory_;

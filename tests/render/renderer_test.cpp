@@ -94,6 +94,13 @@ TEST_F(RendererTest, parameters_reach_the_shader) {
   EXPECT_FLOAT_EQ(value(3, 3, 3), 1);
 }
 
+TEST_F(RendererTest, a_text_reaches_a_string_parameter_whose_name_is_predeclared_otherwise) {
+  shaders_["named"] =
+      "surface named(string background = \"\") { Ci = background == \"b.tif\" ? 1 : 0; Oi = 1; }";
+  EXPECT_EQ(render("WorldBegin Surface \"named\" \"background\" \"b.tif\"" + kSheet + "WorldEnd"), "");
+  EXPECT_EQ(value(8, 8, 0), 1);
+}
+
 TEST_F(RendererTest, primitive_variables_override_parameters) {
   shaders_["show"] = "surface show(varying float k = 1) { Ci = k; Oi = 1; }";
   EXPECT_EQ(
@@ -303,6 +310,30 @@ TEST_F(RendererTest, textures_are_found_on_their_search_path) {
   EXPECT_NEAR(value(3, 3, 1), 0.375f, 1e-3f);
   EXPECT_THAT(render(scene), HasSubstr("texture \"ramp.exr\""));
   EXPECT_EQ(value(3, 3, 0), 0);
+}
+
+TEST_F(RendererTest, lookups_at_places_that_are_not_numbers_are_black) {
+  shaders_["nowhere"] = "surface nowhere(string map = \"\"; float zero = 0) {"
+                        "  vector R = (zero / zero, 1, 0); Oi = 1;"
+                        "  Ci = color texture(map, xcomp(R), t, \"blur\", .1) + color environment(map, R, "
+                        "\"blur\", .1) + .25; }";
+  EXPECT_EQ(render("Option \"searchpath\" \"texture\" [\"" TEXTURE_FOLDER "\"]\n"
+                   "WorldBegin Surface \"nowhere\" \"map\" \"ramp.exr\"" +
+                   kSheet + "WorldEnd"),
+            "");
+  EXPECT_EQ(value(8, 8, 0), 0.25f);
+}
+
+TEST_F(RendererTest, what_changes_along_one_line_only_can_be_blurred) {
+  shaders_["line"] = "surface line(string map = \"\";) {"
+                     "  Ci = (color texture(map, s * t, s * t, \"blur\", .1) + color environment(map, "
+                     "vector(s, .1, 1), \"blur\", .1)"
+                     "     + color environment(map, vector(s - .5, t - .5, 0), \"blur\", .1)) / 3; Oi = 1; }";
+  EXPECT_EQ(render("Option \"searchpath\" \"texture\" [\"" TEXTURE_FOLDER "\"]\n"
+                   "WorldBegin Surface \"line\" \"map\" \"ramp.exr\"" +
+                   kSheet + "WorldEnd"),
+            "");
+  EXPECT_GT(value(8, 8, 0), 0.1f);
 }
 
 TEST_F(RendererTest, shaders_know_time_and_motion) {

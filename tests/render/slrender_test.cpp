@@ -245,6 +245,19 @@ TEST_F(SlrenderTest, sources_on_the_search_path_are_compiled) {
   EXPECT_THAT(o.text, HasSubstr("error: Surface: \"glow.sl\" does not compile"));
 }
 
+TEST_F(SlrenderTest, a_source_beats_what_is_compiled_in_a_later_folder) {
+  // "plastic" is a standard shader; this one is the user's.
+  std::filesystem::create_directory(directory_ / "mine");
+  file("mine/plastic.sl", "surface plastic() { Ci = color(0, 1, 0); Oi = 1; }");
+  file("a.rib",
+       "Format 4 4 1 Display \"out.tif\" \"tiff\" \"rgb\" WorldBegin Surface \"plastic\" Translate 0 0 5 "
+       "Disk 0 9 360 WorldEnd");
+  ASSERT_EQ(run("--shaders mine:@ a.rib").status, 0);
+  EXPECT_EQ(pixels("out.tif")[1], 1);
+  ASSERT_EQ(run("--shaders @:mine a.rib").status, 0);
+  EXPECT_NE(pixels("out.tif")[1], 1);
+}
+
 TEST_F(SlrenderTest, sources_that_have_changed_are_compiled_again) {
   auto with = [](const std::string& name) {
     return std::string(kScene).insert(std::string(kScene).find("Sphere"), "Surface \"" + name + "\"\n");

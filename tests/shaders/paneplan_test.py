@@ -3,6 +3,7 @@ import math
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 SCRIPT = pathlib.Path(__file__).parents[2] / "shaders/glass/paneplan.py"
@@ -51,6 +52,12 @@ class Pane(unittest.TestCase):
     def test_straight_down(self):
         m = matrix(run("refract", "--pane", 0, 0, 0, 0, 0, -1, "--eye", 0, 0, -5).stdout)
         self.assertAlmostEqual(moved(m, (0, 0, 4))[2], 4 / 1.33, 6)
+
+    def test_a_file_in_place_of_standard_output(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "mirror.rib"
+            self.assertEqual(run("reflect", "--pane", 0, 0, 0, 0, 0, -1, "--out", file).stdout, "")
+            self.assertEqual(file.read_text(), run("reflect", "--pane", 0, 0, 0, 0, 0, -1).stdout)
 
     def test_mistakes(self):
         self.assertIn("the eye is behind the pane: turn the normal round",

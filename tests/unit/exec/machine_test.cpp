@@ -216,6 +216,40 @@ TEST_F(MachineTest, SinglePointGridsHaveNoDerivatives) {
   EXPECT_THAT(shade("surface s() { Ci = Du(P . P) + Dv(u) + area(P); }", 1), ElementsAre(0));
 }
 
+TEST_F(MachineTest, PiecesOfAGridHaveDerivativesOfTheirOwn) {
+  // Three pieces, 2 by 3 points each; without respect for their seams, rows 2 and 3 and others would mix.
+  auto surface = instantiate(machine, "surface s() { Ci = color(Dv(s), Du(s), area(P)); }");
+  Grid whole(2, 9);
+  whole.lattice = Lattice::kPieces;
+  whole.piece_rows = 3;
+  auto fill = [](Grid& grid, size_t at, size_t piece) {
+    float *p = grid.varying(Global::kP), *s = grid.varying(Global::ks);
+    size_t pitch = grid.pitch();
+    for (size_t j = 0; j < 3; ++j)
+      for (size_t i = 0; i < 2; ++i, ++at) {
+        auto x = static_cast<float>(i), y = static_cast<float>(j), k = static_cast<float>(piece + 1);
+        p[at] = k * x + 100 * k;
+        p[pitch + at] = y * y - 7 * k;
+        p[2 * pitch + at] = 1;
+        s[at] = k * (x + 1) * y * y + 50 * k;
+      }
+  };
+  for (size_t piece = 0; piece < 3; ++piece)
+    fill(whole, 6 * piece, piece);
+  ShadingContext context(machine, services);
+  context.shade({.surface = surface.get()}, whole);
+  for (size_t piece = 0; piece < 3; ++piece) {
+    Grid alone(2, 3);
+    fill(alone, 0, piece);
+    context.shade({.surface = surface.get()}, alone);
+    for (size_t component = 0; component < 3; ++component) {
+      std::vector<float> expected = red(alone, component), got = red(whole, component);
+      for (size_t i = 0; i < 6; ++i)
+        EXPECT_FLOAT_EQ(got[6 * piece + i], expected[i]) << piece << ' ' << component << ' ' << i;
+    }
+  }
+}
+
 TEST_F(MachineTest, DisplacementThenSurfaceThenAtmosphere) {
   auto d = instantiate(machine, "displacement d(output varying float h = 0) { h = 0.5; P += h * N; }");
   auto s =

@@ -1,0 +1,68 @@
+// Which small surfaces can share a grid.
+#include "render/prims/join_tasks.h"
+
+namespace render {
+
+namespace {
+
+/// Of a task that is worth joining to others, and of what comes of it.
+constexpr int kSmall = 25, kMostPoints = 256;
+/// Pixels that a joined grid may be wide and high: it is shaded as a whole, also where it is hidden.
+constexpr float kMostPixels = 32;
+/// Pieces of one grid have lattices of one size: how many times the points they need they may have.
+constexpr float kMostWaste = 1.7f;
+
+bool is_whole(const UvRect& r) {
+  return r.u0 == 0 && r.u1 == 1 && r.v0 == 0 && r.v1 == 1;
+}
+
+/// Whether a surface can share grids at all.
+bool joins(const Primitive& p) {
+  const VarSource* vars = p.vars.source();
+  bool seams = !p.geometry->ruled() && !p.one_across && p.attributes().stitch;
+  return !seams && !p.state->solid && p.deformation.empty() && (!vars || !vars->differs_by_piece());
+}
+
+bool fit(const Primitive& a, const Primitive& b) {
+  return a.state == b.state && a.vars.source() == b.vars.source() && a.one_across == b.one_across;
+}
+
+} // namespace
+
+void join_tasks(std::span<const Primitive> primitives, std::vector<GridTask>& tasks) {
+  size_t kept = 0;
+  bool open = false; // the last task that was kept may grow
+  float wanted = 0;  // points that its pieces need
+  for (size_t t = 0; t < tasks.size(); ++t) {
+    const GridTask& task = tasks[t];
+    const Primitive& primitive = primitives[task.primitive];
+    bool small = task.nu * task.nv <= kSmall && is_whole(task.rect) && joins(primitive);
+    if (small && open) {
+      GridTask& run = tasks[kept - 1];
+      Vec2 low = glm::min(run.raster_min, task.raster_min), high = glm::max(run.raster_max, task.raster_max);
+      int nu = std::max(run.nu, task.nu), nv = std::max(run.nv, task.nv);
+      int points = static_cast<int>(run.pieces + 1) * nu * nv;
+      float both = wanted + static_cast<float>(task.nu * task.nv);
+      bool room = points <= kMostPoints && static_cast<float>(points) <= kMostWaste * both &&
+                  high.x - low.x <= kMostPixels && high.y - low.y <= kMostPixels;
+      if (room && task.primitive == run.primitive + run.pieces && task.step == run.step &&
+          fit(primitives[run.primitive], primitive)) {
+        ++run.pieces;
+        wanted = both;
+        run.nu = nu;
+        run.nv = nv;
+        run.raster_min = low;
+        run.raster_max = high;
+        run.zmin = std::min(run.zmin, task.zmin);
+        continue;
+      }
+    }
+    open = small;
+    wanted = static_cast<float>(task.nu * task.nv);
+    if (kept != t) tasks[kept] = task;
+    ++kept;
+  }
+  tasks.resize(kept);
+}
+
+} // namespace render
