@@ -96,6 +96,7 @@ void Grid::reset(int nu, int nv) {
   primvars_.clear();
   ray = {};
   lattice = Lattice::kRows;
+  neighbours_end = false;
   std::fill_n(footprint, 4, nullptr);
   for (Block& b : blocks_)
     b.used = 0;

@@ -94,6 +94,10 @@ public:
   /// along u, one along v.
   const float* footprint[4] = {};
 
+  /// Of hits with neighbours: nobody reads the neighbours' results, so that a shader leaves them out behind
+  /// its last derivative; neither lights nor what runs after it may have derivatives of their own.
+  bool neighbours_end = false;
+
   /// What rayinfo() tells.
   RayFacts ray;
   bool derivatives = true;

@@ -172,6 +172,9 @@ public:
   /// The two halves of that, the second one on the same grid.
   void shade_surface(const ShaderSet&, Grid&);
   void shade_atmosphere();
+  /// Instead of the atmosphere: any volume shaders that change Ci and Oi in turn, and the end of the grid.
+  void shade_volume(const Instance&);
+  void end_grid();
   /// One shader of any kind by itself (imagers; lights in tests: set Ps, read Cl and L).
   void run(const Instance&, Grid&);
 

@@ -19,13 +19,12 @@ public:
       : flat_(points), normals_(normals) {}
   Box bound(const UvRect& r) const override { return flat_.bound(r); }
   bool ruled() const override { return true; }
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    flat_.evaluate(u, v, out);
-    size_t k = 0;
-    for (float b : v)
-      for (float a : u)
-        out.N[k++] = (normals_[0] * (1 - a) + normals_[1] * a) * (1 - b) +
-                     (normals_[2] * (1 - a) + normals_[3] * a) * b;
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
+    flat_.evaluate(at, out);
+    at.for_each([&](size_t k, float a, float b) {
+      out.N[k] =
+          (normals_[0] * (1 - a) + normals_[1] * a) * (1 - b) + (normals_[2] * (1 - a) + normals_[3] * a) * b;
+    });
   }
 
 private:

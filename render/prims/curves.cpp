@@ -59,23 +59,20 @@ public:
     return box;
   }
 
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.resize(u.size() * v.size());
-    constexpr double kStep = 1e-4;
-    size_t k = 0;
-    for (float vj : v) {
-      Section here = section(vj), before = section(vj - kStep), after = section(vj + kStep);
-      for (float ui : u) {
-        double x = ui - 0.5;
-        Vec3d along = (after.at(x) - before.at(x)) / (2 * kStep);
-        out.P[k] = Vec3(here.at(x));
-        out.dPdu[k] = Vec3(here.side);
-        out.dPdv[k] = Vec3(along);
-        Vec3d n = glm::cross(here.side, here.tangent);
-        out.N[k] = Vec3(glm::length(n) > 0 ? glm::normalize(n) : here.facing);
-        ++k;
-      }
-    }
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
+    out.resize(at.size());
+    auto column = [](float u) { return u - 0.5; };
+    auto row = [&](float v) {
+      constexpr double kStep = 1e-4;
+      return Row{section(v), section(v - kStep), section(v + kStep), 2 * kStep};
+    };
+    at.for_each(column, row, [&](size_t k, double x, const Row& r) {
+      out.P[k] = Vec3(r.here.at(x));
+      out.dPdu[k] = Vec3(r.here.side);
+      out.dPdv[k] = Vec3((r.after.at(x) - r.before.at(x)) / r.step);
+      Vec3d n = glm::cross(r.here.side, r.here.tangent);
+      out.N[k] = Vec3(glm::length(n) > 0 ? glm::normalize(n) : r.here.facing);
+    });
   }
   static constexpr std::array<int, 2> kCoarsest{1, 4};
   std::array<int, 2> coarsest() const override { return kCoarsest; }
@@ -84,6 +81,10 @@ private:
   struct Section {
     Vec3d centre, side, tangent, facing;
     Vec3d at(double x) const { return centre + side * x; }
+  };
+  struct Row {
+    Section here, before, after;
+    double step; ///< from before to after
   };
   Vec3 blossom(float a, float b, float c) const {
     Vec3 q0 = glm::mix(p_[0], p_[1], a), q1 = glm::mix(p_[1], p_[2], a), q2 = glm::mix(p_[2], p_[3], a);
@@ -127,8 +128,9 @@ public:
     box.add(centre_ + reach);
     return box;
   }
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.fill(u, v, [&](size_t k, float ui, float vj) {
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
+    out.resize(at.size());
+    at.for_each([&](size_t k, float ui, float vj) {
       float a = 2 * ui - 1, b = 2 * vj - 1;
       float ra = std::sqrt(1 - a * a / 2), rb = std::sqrt(1 - b * b / 2);
       out.P[k] = centre_ + x_ * (a * rb) + y_ * (b * ra);
@@ -166,7 +168,7 @@ class CurvePiece final : public Geometry {
 public:
   CurvePiece(const CurveSet& set, uint32_t c, uint32_t k) : set_(&set), c_(c), k_(k) {}
   Box bound(const UvRect& r) const override;
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override;
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
   bool ruled() const override;
   std::array<int, 2> coarsest() const override;
   uint32_t c() const { return c_; }
@@ -354,11 +356,11 @@ Box CurvePiece::bound(const UvRect& r) const {
   return set_->cubic() ? set_->ribbon(*this).bound(r) : set_->strip(*this).bound(r);
 }
 
-void CurvePiece::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
+void CurvePiece::evaluate(const UvPoints& at, SurfaceLattice& out) const {
   if (set_->cubic())
-    set_->ribbon(*this).evaluate(u, v, out);
+    set_->ribbon(*this).evaluate(at, out);
   else
-    set_->strip(*this).evaluate(u, v, out);
+    set_->strip(*this).evaluate(at, out);
 }
 
 bool CurvePiece::ruled() const {
@@ -375,7 +377,7 @@ class DiscPiece final : public Geometry {
 public:
   DiscPiece(const DiscSet& set, size_t index) : set_(&set), index_(index) {}
   Box bound(const UvRect& r) const override;
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override;
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
   std::array<int, 2> coarsest() const override { return {2, 2}; }
 
 private:
@@ -419,8 +421,8 @@ private:
 Box DiscPiece::bound(const UvRect& r) const {
   return set_->disc(index_).bound(r);
 }
-void DiscPiece::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
-  set_->disc(index_).evaluate(u, v, out);
+void DiscPiece::evaluate(const UvPoints& at, SurfaceLattice& out) const {
+  set_->disc(index_).evaluate(at, out);
 }
 
 } // namespace

@@ -29,6 +29,29 @@ Vec3 read(const slvm::Planes& p, size_t k) {
   return {p.get(0, k), p.get(1, k), p.get(2, k)};
 }
 
+/// Normals go by the inverse transpose.
+Vec3 normal_by(const Matrix4& inverse, Vec3 n) {
+  auto row = [&](int c) { return inverse(c, 0) * n.x + inverse(c, 1) * n.y + inverse(c, 2) * n.z; };
+  return {row(0), row(1), row(2)};
+}
+
+Matrix4 scaled(Matrix4 m, float by) {
+  for (float& x : m.m)
+    x *= by;
+  return m;
+}
+
+/// From points to planes.
+template <class F> void transform_all(const Vec3* from, size_t count, Triple to, F&& transform) {
+  float* __restrict x = to.x, * __restrict y = to.y, * __restrict z = to.z;
+  for (size_t k = 0; k < count; ++k) {
+    Vec3 p = transform(from[k]);
+    x[k] = p.x;
+    y[k] = p.y;
+    z[k] = p.z;
+  }
+}
+
 std::vector<float> parameters(float from, float to, int n) {
   std::vector<float> out(static_cast<size_t>(n));
   for (int i = 0; i < n; ++i)
@@ -43,32 +66,26 @@ public:
       : parts_(parts), first_(*parts.front().primitive), attributes_(first_.attributes()), context_(context),
         grid_(grid) {}
 
-  void run() {
+  void run(const SurfaceLattice& lattice, const VarFilter& is_read) {
     grid_.object_to_current = first_.state->object_to_camera;
     grid_.user = &first_;
-    set_geometry();
+    set_geometry(lattice);
     set_parameters();
     set_colours();
     for (size_t i = 0; i < first_.vars.size(); ++i)
-      set_primvar(i);
+      set_primvar(i, is_read);
   }
 
 private:
-  void set_geometry();
+  void set_geometry(const SurfaceLattice& lattice);
   void set_parameters();
   void set_colours();
-  void set_primvar(size_t index);
+  void set_primvar(size_t index, const VarFilter& is_read);
   void set_st(size_t index);
+  template <class F> void each_part(size_t index, F&& f) const;
   void fill(size_t index, float* planes);
-  void to_camera(const Matrix4& m, slvm::Type type, float* planes, size_t count, size_t points) const;
-  /// Calls f(part, number of its first point) for all parts.
-  template <class F> void for_parts(F&& f) const {
-    size_t first = 0;
-    for (const SurfacePoints& part : parts_) {
-      f(part, first);
-      first += part.u.size() * part.v.size();
-    }
-  }
+  void to_camera(const PrimitiveState& state, slvm::Type type, float* planes, size_t count,
+                 size_t points) const;
 
   std::span<const SurfacePoints> parts_;
   const Primitive& first_;
@@ -77,40 +94,34 @@ private:
   slvm::Grid& grid_;
 };
 
-void Dicer::set_geometry() {
-  SurfaceLattice lattice;
+void Dicer::set_geometry(const SurfaceLattice& lattice) {
   grid_.flip_normals = attributes_.flips_normals(first_.state->mirrored);
-  // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
-  // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
-  float sign = grid_.flip_normals == first_.state->mirrored ? 1.0f : -1.0f;
   Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN), Ng = triple(grid_, Global::kNg),
          dPdu = triple(grid_, Global::kdPdu), dPdv = triple(grid_, Global::kdPdv),
          I = triple(grid_, Global::kI);
-  for_parts([&](const SurfacePoints& part, size_t k) {
+  for (const SurfacePoints& part : parts_) {
     const Primitive& primitive = *part.primitive;
-    const Matrix4& m = primitive.state->object_to_camera;
-    const Matrix4& inverse = primitive.state->camera_to_object;
-    float along_u = 1 / (primitive.uv.u1 - primitive.uv.u0),
-          along_v = 1 / (primitive.uv.v1 - primitive.uv.v0);
-    auto set = [&](const SurfaceValue& at) {
-      Vec3 p = transform_point(m, at.P);
-      P.set(k, p);
-      I.set(k, context_.camera->incident(p));
-      dPdu.set(k, transform_vector(m, at.dPdu * along_u));
-      dPdv.set(k, transform_vector(m, at.dPdv * along_v));
-      // Normals go by the inverse transpose.
-      Vec3 nc;
-      for (int c = 0; c < 3; ++c)
-        nc[c] = sign * (inverse(c, 0) * at.N.x + inverse(c, 1) * at.N.y + inverse(c, 2) * at.N.z);
-      N.set(k, nc);
-      Ng.set(k, nc);
-      ++k;
+    const Matrix4 m = primitive.state->object_to_camera, inverse = primitive.state->camera_to_object;
+    const size_t first = part.first, count = part.at.size();
+    auto each = [&](const std::vector<Vec3>& from, Triple to, auto&& transform) {
+      transform_all(from.data() + first, count, {to.x + first, to.y + first, to.z + first}, transform);
     };
-    if (part.known) return set(*part.known);
-    primitive.geometry->evaluate(part.u, part.v, lattice);
-    for (size_t i = 0; i < lattice.P.size(); ++i)
-      set({lattice.P[i], lattice.dPdu[i], lattice.dPdv[i], lattice.N[i]});
-  });
+    each(lattice.P, P, [&](Vec3 p) { return transform_point(m, p); });
+    const Matrix4 u = scaled(m, 1 / (primitive.uv.u1 - primitive.uv.u0)),
+                  v = scaled(m, 1 / (primitive.uv.v1 - primitive.uv.v0));
+    each(lattice.dPdu, dPdu, [&](Vec3 d) { return transform_vector(u, d); });
+    each(lattice.dPdv, dPdv, [&](Vec3 d) { return transform_vector(v, d); });
+    // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
+    // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
+    const Matrix4 n = scaled(inverse, grid_.flip_normals == primitive.state->mirrored ? 1.0f : -1.0f);
+    each(lattice.N, N, [&](Vec3 normal) { return normal_by(n, normal); });
+  }
+  const size_t points = grid_.points();
+  for (size_t k = 0; k < points; ++k)
+    I.set(k, context_.camera->incident(P.get(k)));
+  std::copy_n(N.x, points, Ng.x);
+  std::copy_n(N.y, points, Ng.y);
+  std::copy_n(N.z, points, Ng.z);
 }
 
 void Dicer::set_parameters() {
@@ -119,15 +130,13 @@ void Dicer::set_parameters() {
   float* s = grid_.varying(Global::ks);
   float* t = grid_.varying(Global::kt);
   const auto& tc = attributes_.texture_coordinates;
-  for_parts([&](const SurfacePoints& part, size_t k) {
+  for (const SurfacePoints& part : parts_) {
     const UvRect& whole = part.primitive->uv;
-    for (float vj : part.v)
-      for (float ui : part.u) {
-        u[k] = whole.u0 + (whole.u1 - whole.u0) * ui;
-        v[k] = whole.v0 + (whole.v1 - whole.v0) * vj;
-        ++k;
-      }
-  });
+    part.at.for_each([&](size_t i, float ui, float vj) {
+      u[part.first + i] = whole.u0 + (whole.u1 - whole.u0) * ui;
+      v[part.first + i] = whole.v0 + (whole.v1 - whole.v0) * vj;
+    });
+  }
   // Pieces of odd shapes bring their parameters along; s and t follow these.
   for (size_t i = 0; i < first_.vars.size(); ++i)
     if (Global g = replaced_variable(first_.vars[i]); g == Global::ku || g == Global::kv)
@@ -148,60 +157,80 @@ void Dicer::set_parameters() {
 }
 
 void Dicer::set_colours() {
-  const Color &c = attributes_.color, &o = attributes_.opacity;
-  grid_.set_uniform(Global::kCs, std::array{c.x, c.y, c.z});
-  grid_.set_uniform(Global::kOs, std::array{o.x, o.y, o.z});
+  for (auto [global, member] :
+       {std::pair(Global::kCs, &Attributes::color), std::pair(Global::kOs, &Attributes::opacity)}) {
+    auto of = [&, colour = member](const SurfacePoints& part) {
+      return part.primitive->attributes().*colour;
+    };
+    const Color first = of(parts_.front());
+    if (std::all_of(parts_.begin(), parts_.end(), [&](const SurfacePoints& p) { return of(p) == first; })) {
+      grid_.set_uniform(global, std::array{first.x, first.y, first.z});
+      continue;
+    }
+    Triple to = triple(grid_, global);
+    for (const SurfacePoints& part : parts_)
+      for (size_t k = part.first; k < part.first + part.at.size(); ++k)
+        to.set(k, of(part));
+  }
 }
 
 /// Object-space values to camera space, in place.
-void Dicer::to_camera(const Matrix4& m, slvm::Type type, float* planes, size_t count, size_t points) const {
+void Dicer::to_camera(const PrimitiveState& state, slvm::Type type, float* planes, size_t count,
+                      size_t points) const {
   if (!slvm::is_geometric(type)) return;
-  size_t pitch = grid_.pitch();
-  for (size_t e = 0; e < count; ++e, planes += 3 * pitch)
-    for (size_t k = 0; k < points; ++k) {
-      std::array<float, 3> a{planes[k], planes[pitch + k], planes[2 * pitch + k]}, b;
-      if (type == slvm::Type::kPoint)
-        b = slvm::transform_point(m, a);
-      else if (type == slvm::Type::kVector)
-        b = slvm::transform_vector(m, a);
-      else
-        b = slvm::transform_normal(m, a);
-      for (size_t c = 0; c < 3; ++c)
-        planes[c * pitch + k] = b[c];
-    }
+  const Matrix4 m = state.object_to_camera;
+  const size_t pitch = grid_.pitch();
+  auto each = [&](float* x, auto&& transform) {
+    const Triple triple{x, x + pitch, x + 2 * pitch};
+    for (size_t k = 0; k < points; ++k)
+      triple.set(k, transform(triple.get(k)));
+  };
+  for (size_t e = 0; e < count; ++e, planes += 3 * pitch) {
+    if (type == slvm::Type::kPoint)
+      each(planes, [&](Vec3 p) { return transform_point(m, p); });
+    else if (type == slvm::Type::kVector)
+      each(planes, [&](Vec3 v) { return transform_vector(m, v); });
+    else
+      each(planes, [&](Vec3 n) { return normal_by(state.camera_to_object, n); });
+  }
+}
+
+/// Calls f(variable, part) for all parts: variables are made once for parts of the same primitive.
+template <class F> void Dicer::each_part(size_t index, F&& f) const {
+  const Primitive* of = nullptr;
+  PatchVar var;
+  for (const SurfacePoints& part : parts_) {
+    if (part.primitive != of) var = (of = part.primitive)->vars[index];
+    f(static_cast<const PatchVar&>(var), part);
+  }
 }
 
 /// The values of a variable at all points.
 void Dicer::fill(size_t index, float* planes) {
-  const Primitive* of = nullptr;
-  PatchVar var;
-  for_parts([&](const SurfacePoints& part, size_t first) {
-    if (part.primitive != of) var = (of = part.primitive)->vars[index];
-    interpolate(var, part.u, part.v, planes + first, grid_.pitch());
-    to_camera(part.primitive->state->object_to_camera, var.type, planes + first,
-              var.elements ? var.elements : 1, part.u.size() * part.v.size());
+  each_part(index, [&](const PatchVar& var, const SurfacePoints& part) {
+    interpolate(var, part.at, planes + part.first, grid_.pitch());
+    to_camera(*part.primitive->state, var.type, planes + part.first, var.elements ? var.elements : 1,
+              part.at.size());
   });
 }
 
 void Dicer::set_st(size_t index) {
   float* planes[2] = {grid_.varying(Global::ks), grid_.varying(Global::kt)};
   std::vector<float> both;
-  const Primitive* of = nullptr;
-  PatchVar var;
-  for_parts([&](const SurfacePoints& part, size_t first) {
-    if (part.primitive != of) var = (of = part.primitive)->vars[index];
-    size_t points = part.u.size() * part.v.size();
+  each_part(index, [&](const PatchVar& var, const SurfacePoints& part) {
+    size_t points = part.at.size();
     both.resize(2 * points);
-    interpolate(var, part.u, part.v, both.data(), points);
+    interpolate(var, part.at, both.data(), points);
     for (size_t c = 0; c < 2; ++c)
-      std::copy_n(both.data() + c * points, points, planes[c] + first);
+      std::copy_n(both.data() + c * points, points, planes[c] + part.first);
   });
 }
 
-void Dicer::set_primvar(size_t index) {
+void Dicer::set_primvar(size_t index, const VarFilter& is_read) {
   const PatchVar& var = first_.vars[index];
   if (is_st(var)) return set_st(index);
   if (Global g = replaced_variable(var); g != Global::kCount) return fill(index, grid_.varying(g));
+  if (is_read && !is_read(var.name)) return;
   // Constant values cost nothing as uniforms; geometric ones and matrices need the transformation below.
   bool plain = var.type == slvm::Type::kFloat || var.type == slvm::Type::kColor ||
                var.type == slvm::Type::kString || var.type == slvm::Type::kMatrix;
@@ -254,18 +283,27 @@ void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, 
   grid.id = id;
   std::vector<float> u = parameters(task.rect.u0, task.rect.u1, task.nu),
                      v = parameters(task.rect.v0, task.rect.v1, task.nv);
+  const UvPoints at{u, v};
   std::vector<SurfacePoints> parts;
-  for (const Primitive& piece : pieces)
-    parts.push_back({&piece, u, v});
-  dice_points(parts, context, grid);
+  SurfaceLattice lattice, piece_lattice;
+  for (const Primitive& piece : pieces) {
+    parts.push_back({&piece, at, lattice.P.size()});
+    piece.geometry->evaluate(at, piece_lattice);
+    if (pieces.size() == 1)
+      std::swap(lattice, piece_lattice);
+    else
+      lattice.append(piece_lattice);
+  }
+  dice_points(parts, lattice, context, {}, grid);
   float du = (u.back() - u.front()) / static_cast<float>(u.size() - 1);
   float dv = (v.back() - v.front()) / static_cast<float>(v.size() - 1);
   set_steps(grid, Global::kdu, pieces, [&](const UvRect& whole) { return (whole.u1 - whole.u0) * du; });
   set_steps(grid, Global::kdv, pieces, [&](const UvRect& whole) { return (whole.v1 - whole.v0) * dv; });
 }
 
-void dice_points(std::span<const SurfacePoints> parts, const DiceContext& context, slvm::Grid& grid) {
-  Dicer(parts, context, grid).run();
+void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
+                 const DiceContext& context, const VarFilter& is_read, slvm::Grid& grid) {
+  Dicer(parts, context, grid).run(lattice, is_read);
 }
 
 void renew_geometry(const Camera& camera, slvm::Grid& grid) {

@@ -5,6 +5,7 @@
 #include "render/prims/split.h"
 #include "slvm/grid.h"
 
+#include <functional>
 #include <span>
 
 namespace slvm {
@@ -25,22 +26,24 @@ struct DiceContext {
 void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
           slvm::Grid& grid);
 
-/// A point of a surface in object space, as SurfaceLattice has it.
-struct SurfaceValue {
-  Vec3 P, dPdu, dPdv, N;
-};
-
-/// Points of a primitive: all pairs of a u and a v of its parameter square.
+/// Points of one primitive that follow each other in a grid.
 struct SurfacePoints {
   const Primitive* primitive = nullptr;
-  std::span<const float> u, v;
-  const SurfaceValue* known = nullptr; ///< of a single point: what the geometry gives there
+  UvPoints at;
+  size_t first = 0; ///< number of the first of them in the grid
 };
 
-/// Fills a grid with the points of `parts`, one part after another; it has as many points, and du and dv are
-/// left to the caller. The primitives have the same attributes, the same object space and variables of the
-/// same names and kinds; constant ones have the same values, unless they replace predefined ones.
-void dice_points(std::span<const SurfacePoints> parts, const DiceContext& context, slvm::Grid& grid);
+/// Whether anybody reads a primitive variable.
+using VarFilter = std::function<bool(const std::string& name)>;
+
+/// Fills a grid with the points of `parts`, which together are all points it has; `lattice` is what the
+/// geometry of the primitives gives at each, by their numbers in the grid. du and dv are left to the caller.
+/// The primitives are alike in all that is the same for a grid: texture coordinates, the side their normals
+/// are on, variables of the same names and kinds; constant ones have the same values, unless they replace
+/// predefined ones. "object" is the space of the first one, and attribute() tells of it. Variables that
+/// replace nothing and that nobody reads are left out.
+void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
+                 const DiceContext& context, const VarFilter& is_read, slvm::Grid& grid);
 
 /// The predefined variable that a primitive variable replaces, or kCount. "st" is none: it replaces two.
 slvm::Global replaced_variable(const PatchVar& var);

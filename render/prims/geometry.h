@@ -18,7 +18,38 @@ struct UvRect {
   float vmid() const { return 0.5f * (v0 + v1); }
 };
 
-/// Points of a lattice, u fastest, in object space. N is along dPdu x dPdv, of any length, and never zero
+/// Places on a surface: all pairs of a u and a v, u fastest; or, `paired`, each u with the v of its number.
+struct UvPoints {
+  std::span<const float> u, v;
+  bool paired = false;
+
+  size_t size() const { return paired ? u.size() : u.size() * v.size(); }
+  /// f(k, u, v) for each place k, in order.
+  template <class F> void for_each(F&& f) const {
+    auto same = [](float x) { return x; };
+    for_each(same, same, f);
+  }
+  /// f(k, column, row) with what column(u) and row(v) make of a place; of pairs once for each u and v.
+  template <class Column, class Row, class F> void for_each(Column&& column, Row&& row, F&& f) const {
+    if (paired) {
+      for (size_t k = 0; k < u.size(); ++k)
+        f(k, column(u[k]), row(v[k]));
+      return;
+    }
+    std::vector<decltype(column(0.0f))> columns;
+    columns.reserve(u.size());
+    for (float ui : u)
+      columns.push_back(column(ui));
+    size_t k = 0;
+    for (float vj : v) {
+      const auto here = row(vj);
+      for (const auto& c : columns)
+        f(k++, c, here);
+    }
+  }
+};
+
+/// Points of a surface, in object space. N is along dPdu x dPdv, of any length, and never zero
 /// where the surface has a tangent plane (poles and collapsed edges included).
 struct SurfaceLattice {
   std::vector<Vec3> P, dPdu, dPdv, N;
@@ -28,13 +59,11 @@ struct SurfaceLattice {
     dPdv.resize(points);
     N.resize(points);
   }
-  /// Makes room for all pairs of a u and a v and calls f(k, u, v) for each, which fills in point k.
-  template <class F> void fill(std::span<const float> u, std::span<const float> v, F&& f) {
-    resize(u.size() * v.size());
-    size_t k = 0;
-    for (float vj : v)
-      for (float ui : u)
-        f(k++, ui, vj);
+  void append(const SurfaceLattice& more) {
+    P.insert(P.end(), more.P.begin(), more.P.end());
+    dPdu.insert(dPdu.end(), more.dPdu.begin(), more.dPdu.end());
+    dPdv.insert(dPdv.end(), more.dPdv.begin(), more.dPdv.end());
+    N.insert(N.end(), more.N.begin(), more.N.end());
   }
 };
 
@@ -43,8 +72,7 @@ public:
   virtual ~Geometry() = default;
   /// A box around the part `rect`, in object space. May be larger, never smaller.
   virtual Box bound(const UvRect& rect) const = 0;
-  /// All pairs of a u and a v, u fastest.
-  virtual void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const = 0;
+  virtual void evaluate(const UvPoints& at, SurfaceLattice& out) const = 0;
   /// Whether all lines of constant u or v are straight, so that the four corners tell the size of a part.
   virtual bool ruled() const { return false; }
   /// Micropolygons the whole of u and of v takes at least, however small it is: powers of two.

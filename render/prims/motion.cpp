@@ -25,10 +25,10 @@ public:
     box.add(b_->bound(rect));
     return box;
   }
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
     SurfaceLattice other;
-    a_->evaluate(u, v, out);
-    b_->evaluate(u, v, other);
+    a_->evaluate(at, out);
+    b_->evaluate(at, other);
     for (size_t k = 0; k < out.P.size(); ++k) {
       out.P[k] += (other.P[k] - out.P[k]) * weight_;
       out.dPdu[k] += (other.dPdu[k] - out.dPdu[k]) * weight_;

@@ -166,23 +166,21 @@ public:
     return piece_.surface->bound(low.x, high.x, low.y, high.y);
   }
 
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.resize(u.size() * v.size());
-    std::vector<NurbsWeights> columns;
-    if (straight_)
-      for (float a : u)
-        columns.push_back(piece_.uweights(piece_.uv(a, 0).x));
-    size_t k = 0;
-    for (float b : v) {
-      NurbsWeights row;
-      if (straight_) row = piece_.vweights(piece_.uv(0, b).y);
-      for (size_t i = 0; i < u.size(); ++i, ++k) {
-        Vec2d at = piece_.uv(u[i], b);
-        NurbsSurface::Point p = straight_ ? piece_.surface->at(columns[i], row)
-                                          : piece_.surface->at(piece_.uweights(at.x), piece_.vweights(at.y));
-        set(p, u[i], b, k, out);
-      }
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
+    out.resize(at.size());
+    const NurbsSurface& surface = *piece_.surface;
+    if (!straight_) {
+      at.for_each([&](size_t k, float a, float b) {
+        Vec2d uv = piece_.uv(a, b);
+        set(surface.at(piece_.uweights(uv.x), piece_.vweights(uv.y)), a, b, k, out);
+      });
+      return;
     }
+    auto column = [&](float a) { return std::pair(a, piece_.uweights(piece_.uv(a, 0).x)); };
+    auto row = [&](float b) { return std::pair(b, piece_.vweights(piece_.uv(0, b).y)); };
+    at.for_each(column, row, [&](size_t k, const auto& c, const auto& r) {
+      set(surface.at(c.second, r.second), c.first, r.first, k, out);
+    });
   }
 
 private:

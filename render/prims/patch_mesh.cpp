@@ -84,7 +84,7 @@ class MeshPiece final : public Geometry {
 public:
   MeshPiece(const MeshOfPatches& mesh, int i, int j) : mesh_(&mesh), i_(i), j_(j) {}
   Box bound(const UvRect& r) const override;
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override;
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
   bool ruled() const override;
   int i() const { return i_; }
   int j() const { return j_; }
@@ -154,11 +154,11 @@ Box MeshPiece::bound(const UvRect& r) const {
   return mesh_->cubic() ? mesh_->bicubic(*this).bound(r) : mesh_->bilinear(*this).bound(r);
 }
 
-void MeshPiece::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
+void MeshPiece::evaluate(const UvPoints& at, SurfaceLattice& out) const {
   if (mesh_->cubic())
-    mesh_->bicubic(*this).evaluate(u, v, out);
+    mesh_->bicubic(*this).evaluate(at, out);
   else
-    mesh_->bilinear(*this).evaluate(u, v, out);
+    mesh_->bilinear(*this).evaluate(at, out);
 }
 
 bool MeshPiece::ruled() const {

@@ -62,7 +62,13 @@ void restrict_cubic(Vec3* p, size_t stride, float t0, float t1) {
 }
 
 struct Weights {
+  float u;
   std::array<float, 4> value, slope;
+};
+/// A row of a patch is a cubic of u, and so is its change along v.
+struct Row {
+  float v;
+  Vec3 points[4], change[4];
 };
 
 Vec3 combine(const Vec3* p, size_t stride, const std::array<float, 4>& w) {
@@ -79,8 +85,9 @@ Box BilinearPatch::bound(const UvRect& r) const {
   return box;
 }
 
-void BilinearPatch::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
-  out.fill(u, v, [&](size_t k, float ui, float vj) {
+void BilinearPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
+  out.resize(at.size());
+  at.for_each([&](size_t k, float ui, float vj) {
     out.P[k] = point(ui, vj);
     out.dPdu[k] = du(vj);
     out.dPdv[k] = dv(ui);
@@ -106,30 +113,27 @@ Box BicubicPatch::bound(const UvRect& r) const {
   return box;
 }
 
-void BicubicPatch::evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const {
-  std::vector<Weights> columns;
-  for (float ui : u)
-    columns.push_back({bernstein(ui), bernstein_slope(ui)});
+void BicubicPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
   const float collapsed =
       kCollapsed * (glm::dot(p_[15] - p_[0], p_[15] - p_[0]) + glm::dot(p_[12] - p_[3], p_[12] - p_[3]));
-  out.resize(u.size() * v.size());
-  size_t k = 0;
-  for (float vj : v) {
-    // The row is a cubic of u, and so is its change along v.
-    const std::array<float, 4> weight = bernstein(vj), slope = bernstein_slope(vj);
-    Vec3 row[4], change[4];
+  out.resize(at.size());
+  auto column = [](float u) { return Weights{u, bernstein(u), bernstein_slope(u)}; };
+  auto row = [&](float v) {
+    Row r{v, {}, {}};
+    const std::array<float, 4> weight = bernstein(v), slope = bernstein_slope(v);
     for (size_t i = 0; i < 4; ++i) {
-      row[i] = combine(&p_[i], 4, weight);
-      change[i] = combine(&p_[i], 4, slope);
+      r.points[i] = combine(&p_[i], 4, weight);
+      r.change[i] = combine(&p_[i], 4, slope);
     }
-    for (size_t i = 0; i < u.size(); ++i, ++k) {
-      out.P[k] = combine(row, 1, columns[i].value);
-      out.dPdu[k] = combine(row, 1, columns[i].slope);
-      out.dPdv[k] = combine(change, 1, columns[i].value);
-      out.N[k] = glm::cross(out.dPdu[k], out.dPdv[k]);
-      if (glm::length(out.N[k]) < collapsed) out.N[k] = limit_normal(p_, 4, u[i], vj);
-    }
-  }
+    return r;
+  };
+  at.for_each(column, row, [&](size_t k, const Weights& c, const Row& r) {
+    out.P[k] = combine(r.points, 1, c.value);
+    out.dPdu[k] = combine(r.points, 1, c.slope);
+    out.dPdv[k] = combine(r.change, 1, c.value);
+    out.N[k] = glm::cross(out.dPdu[k], out.dPdv[k]);
+    if (glm::length(out.N[k]) < collapsed) out.N[k] = limit_normal(p_, 4, c.u, r.v);
+  });
 }
 
 std::array<float, 4> bernstein(float t) {

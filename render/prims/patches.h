@@ -15,7 +15,7 @@ class BilinearPatch final : public Geometry {
 public:
   explicit BilinearPatch(const std::array<Vec3, 4>& p) : p_(p) {}
   Box bound(const UvRect& r) const override;
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override;
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
   bool ruled() const override { return true; }
 
 private:
@@ -34,7 +34,7 @@ class BicubicPatch final : public Geometry {
 public:
   explicit BicubicPatch(const std::array<Vec3, 16>& p) : p_(p) {}
   Box bound(const UvRect& r) const override;
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override;
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
 
 private:
   std::array<Vec3, 16> p_;

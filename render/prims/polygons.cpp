@@ -62,9 +62,7 @@ public:
   PolygonPatch(const PolygonMesh& mesh, uint32_t face, uint32_t part)
       : mesh_(&mesh), face_(face), part_(part) {}
   Box bound(const UvRect& r) const override { return patch().bound(r); }
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    patch().evaluate(u, v, out);
-  }
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override { patch().evaluate(at, out); }
   bool ruled() const override { return true; }
   uint32_t face() const { return face_; }
   uint32_t part() const { return part_; }

@@ -13,42 +13,34 @@ std::array<float, 4> linear_weights(float t) {
 
 } // namespace
 
-void interpolate(const PatchVar& var, std::span<const float> u, std::span<const float> v, float* out,
-                 size_t pitch) {
-  size_t width = var.width(), points = u.size() * v.size();
+void interpolate(const PatchVar& var, const UvPoints& at, float* out, size_t pitch) {
+  size_t width = var.width();
   if (var.interpolation == Interpolation::kConstant) {
     for (size_t c = 0; c < width; ++c)
-      std::fill_n(out + c * pitch, points, var.values[c]);
+      std::fill_n(out + c * pitch, at.size(), var.values[c]);
     return;
   }
   if (var.interpolation == Interpolation::kSurface) {
     std::vector<float> value(width);
-    size_t k = 0;
-    for (float vj : v)
-      for (float ui : u) {
-        var.surface->evaluate(ui, vj, value);
-        for (size_t c = 0; c < width; ++c)
-          out[c * pitch + k] = value[c];
-        ++k;
-      }
+    at.for_each([&](size_t k, float u, float v) {
+      var.surface->evaluate(u, v, value);
+      for (size_t c = 0; c < width; ++c)
+        out[c * pitch + k] = value[c];
+    });
     return;
   }
   bool cubic = var.interpolation == Interpolation::kBicubic;
-  size_t side = cubic ? 4 : 2, k = 0;
-  for (float vj : v) {
-    auto wv = cubic ? bernstein(vj) : linear_weights(vj);
-    for (float ui : u) {
-      auto wu = cubic ? bernstein(ui) : linear_weights(ui);
-      for (size_t c = 0; c < width; ++c) {
-        float sum = 0;
-        for (size_t j = 0; j < side; ++j)
-          for (size_t i = 0; i < side; ++i)
-            sum += wu[i] * wv[j] * var.values[(side * j + i) * width + c];
-        out[c * pitch + k] = sum;
-      }
-      ++k;
+  size_t side = cubic ? 4 : 2;
+  auto weights = [&](float t) { return cubic ? bernstein(t) : linear_weights(t); };
+  at.for_each(weights, weights, [&](size_t k, const auto& wu, const auto& wv) {
+    for (size_t c = 0; c < width; ++c) {
+      float sum = 0;
+      for (size_t j = 0; j < side; ++j)
+        for (size_t i = 0; i < side; ++i)
+          sum += wu[i] * wv[j] * var.values[(side * j + i) * width + c];
+      out[c * pitch + k] = sum;
     }
-  }
+  });
 }
 
 } // namespace render

@@ -45,8 +45,7 @@ struct PatchVar {
   size_t width() const { return static_cast<size_t>(slvm::components(type)) * (elements ? elements : 1); }
 };
 
-/// Values of `var` on a lattice: component c of point k at out[c * pitch + k].
-void interpolate(const PatchVar& var, std::span<const float> u, std::span<const float> v, float* out,
-                 size_t pitch);
+/// Values of `var` on a surface: component c of place k at out[c * pitch + k].
+void interpolate(const PatchVar& var, const UvPoints& at, float* out, size_t pitch);
 
 } // namespace render

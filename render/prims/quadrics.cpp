@@ -1,6 +1,8 @@
 // Quadrics. A profile knows its point and derivative at v and a bound for a range of v; Quadric turns it.
 #include "render/prims/quadrics.h"
 
+#include "slvm/support/turn.h"
+
 #include <cmath>
 
 namespace render {
@@ -35,8 +37,8 @@ struct ProfilePoint {
 struct SphereProfile {
   float radius, phimin, phimax;
   ProfilePoint at(float v) const {
-    float d = phimax - phimin, phi = phimin + v * d;
-    float c = std::cos(phi), s = std::sin(phi);
+    float d = phimax - phimin, c, s;
+    slvm::sine_and_cosine((phimin + v * d) / (2 * kPi), s, c);
     return {{radius * c, 0, radius * s}, {-radius * s * d, 0, radius * c * d}};
   }
   ProfileRange range(float v0, float v1) const {
@@ -111,33 +113,96 @@ public:
     return box;
   }
 
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.resize(u.size() * v.size());
-    std::vector<Vec2> turns(u.size()); // cosine and sine
-    for (size_t i = 0; i < u.size(); ++i)
-      turns[i] = {std::cos(u[i] * thetamax_), std::sin(u[i] * thetamax_)};
-    size_t k = 0;
-    for (float vj : v) {
-      ProfilePoint p = profile_.at(vj);
-      Vec3 normal = profile_normal(p, vj);
-      for (Vec2 t : turns) {
-        auto turn = [&](Vec3 w) { return Vec3(w.x * t.x - w.y * t.y, w.x * t.y + w.y * t.x, w.z); };
-        out.P[k] = turn(p.q);
-        out.dPdu[k] = turn({-p.q.y * thetamax_, p.q.x * thetamax_, 0});
-        out.dPdv[k] = turn(p.dq);
-        out.N[k] = turn(normal);
-        ++k;
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
+    out.resize(at.size());
+    const size_t width = at.u.size(), height = at.v.size();
+    Columns columns;
+    Rows rows;
+    auto block = [](size_t first, size_t all) { return std::min(kBlock, all - first); };
+    if (at.paired) {
+      for (size_t k = 0; k < width; k += kBlock) {
+        const size_t count = block(k, width);
+        turn(at.u.data() + k, count, columns);
+        find_profile(at.v.data() + k, count, rows);
+        for (size_t i = 0; i < count; ++i)
+          set(columns, i, rows, i, k + i, out);
+      }
+      return;
+    }
+    for (size_t v = 0; v < height; v += kBlock) {
+      find_profile(at.v.data() + v, block(v, height), rows);
+      for (size_t u = 0; u < width; u += kBlock) {
+        turn(at.u.data() + u, block(u, width), columns);
+        for (size_t j = 0; j < block(v, height); ++j)
+          for (size_t i = 0; i < block(u, width); ++i)
+            set(columns, i, rows, j, (v + j) * width + u + i, out);
       }
     }
   }
 
 private:
+  /// What columns and rows are worked out for together, component by component: loops that compilers
+  /// vectorise.
+  static constexpr size_t kBlock = 64;
+  struct Columns {
+    float sine[kBlock], cosine[kBlock];
+  };
+  struct Rows { ///< at theta 0
+    float q[3][kBlock], dq[3][kBlock], n[3][kBlock];
+  };
+
+  void turn(const float* u, size_t count, Columns& out) const {
+    const float turns = thetamax_ / (2 * kPi);
+    for (size_t i = 0; i < count; ++i)
+      slvm::sine_and_cosine(u[i] * turns, out.sine[i], out.cosine[i]);
+  }
+
+  void find_profile(const float* v, size_t count, Rows& out) const {
+    for (size_t i = 0; i < count; ++i) {
+      const ProfilePoint p = profile_.at(v[i]);
+      for (int c = 0; c < 3; ++c) {
+        out.q[c][i] = p.q[c];
+        out.dq[c][i] = p.dq[c];
+      }
+    }
+    const float sign = thetamax_ < 0 ? -1.0f : 1.0f;
+    float length[kBlock];
+    for (size_t i = 0; i < count; ++i) { // dPdu x dPdv: (-qy, qx, 0) x dq
+      const float x = out.q[0][i] * out.dq[2][i], y = out.q[1][i] * out.dq[2][i],
+                  z = -(out.q[0][i] * out.dq[0][i] + out.q[1][i] * out.dq[1][i]);
+      length[i] = std::sqrt(x * x + y * y + z * z);
+      const float scale = sign / length[i];
+      out.n[0][i] = x * scale;
+      out.n[1][i] = y * scale;
+      out.n[2][i] = z * scale;
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const float off = out.q[0][i] * out.q[0][i] + out.q[1][i] * out.q[1][i];
+      const Vec3 dq(out.dq[0][i], out.dq[1][i], out.dq[2][i]);
+      if (off >= kOnAxis * glm::dot(dq, dq) && length[i] > 0) continue;
+      const Vec3 n = normal_at_axis(dq, v[i]);
+      for (int c = 0; c < 3; ++c)
+        out.n[c][i] = n[c];
+    }
+  }
+
+  void set(const Columns& columns, size_t i, const Rows& rows, size_t j, size_t k,
+           SurfaceLattice& out) const {
+    const float s = columns.sine[i], c = columns.cosine[i];
+    auto turned = [&](float x, float y, float z) { return Vec3(x * c - y * s, x * s + y * c, z); };
+    out.P[k] = turned(rows.q[0][j], rows.q[1][j], rows.q[2][j]);
+    out.dPdu[k] = turned(-rows.q[1][j] * thetamax_, rows.q[0][j] * thetamax_, 0);
+    out.dPdv[k] = turned(rows.dq[0][j], rows.dq[1][j], rows.dq[2][j]);
+    out.N[k] = turned(rows.n[0][j], rows.n[1][j], rows.n[2][j]);
+  }
+
+  /// Squared distance from the axis, by the square of dPdv, at which dPdu has no direction.
+  static constexpr float kOnAxis = 1e-8f;
+
   /// dPdu x dPdv at theta 0, with the direction of dPdu that a point a little off the axis has.
-  Vec3 profile_normal(const ProfilePoint& p, float v) const {
-    Vec2 q(p.q);
-    if (glm::length(q) < 1e-4f * glm::length(p.dq)) q = Vec2(profile_.at(v < 0.5f ? v + 1e-3f : v - 1e-3f).q);
-    Vec3 tangent(-q.y, q.x, 0);
-    Vec3 n = glm::cross(tangent, p.dq) * (thetamax_ < 0 ? -1.0f : 1.0f);
+  Vec3 normal_at_axis(Vec3 dq, float v) const {
+    const Vec3 q = profile_.at(v < 0.5f ? v + 1e-3f : v - 1e-3f).q;
+    Vec3 n = glm::cross(Vec3(-q.y, q.x, 0), dq) * (thetamax_ < 0 ? -1.0f : 1.0f);
     float length = glm::length(n);
     return length > 0 ? n / length : Vec3(0, 0, 1);
   }

@@ -185,7 +185,7 @@ Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
   }
   SurfaceLattice lattice;
   auto count = static_cast<size_t>(n);
-  primitive_.geometry->evaluate({u, count}, {v, count}, lattice);
+  primitive_.geometry->evaluate({{u, count}, {v, count}}, lattice);
   Vec3 p[(kProbes + 1) * (kProbes + 1)], there[(kProbes + 1) * (kProbes + 1)];
   for (size_t k = 0; k < lattice.P.size(); ++k) {
     p[k] = transform_point(primitive_.state->object_to_camera, lattice.P[k]);

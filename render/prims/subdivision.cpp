@@ -183,17 +183,18 @@ public:
     return box;
   }
 
-  void evaluate(std::span<const float> u, std::span<const float> v, SurfaceLattice& out) const override {
-    out.fill(u, v, [&](size_t k, float ui, float vj) {
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
+    out.resize(at.size());
+    at.for_each([&](size_t k, float ui, float vj) {
       Vec3d p, du, dv;
-      at(ui, vj, p, du, dv);
+      point(ui, vj, p, du, dv);
       out.P[k] = Vec3(p);
       out.dPdu[k] = Vec3(du);
       out.dPdv[k] = Vec3(dv);
       Vec3d n = glm::cross(du, dv);
       if (glm::length(n) <= 1e-9 * (glm::dot(du, du) + glm::dot(dv, dv))) {
         // Tangents that vanish or fall together: the limit from inside.
-        at(ui + (0.5 - ui) * 1e-4, vj + (0.5 - vj) * 1e-4, p, du, dv);
+        point(ui + (0.5 - ui) * 1e-4, vj + (0.5 - vj) * 1e-4, p, du, dv);
         n = glm::cross(du, dv);
       }
       double length = glm::length(n);
@@ -202,7 +203,7 @@ public:
   }
 
 private:
-  void at(double u, double v, Vec3d& p, Vec3d& du, Vec3d& dv) const {
+  void point(double u, double v, Vec3d& p, Vec3d& du, Vec3d& dv) const {
     double uv[2];
     Vec3d fu, fv;
     part_.locate(u, v, uv);

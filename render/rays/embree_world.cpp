@@ -14,6 +14,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace render {
@@ -155,7 +156,8 @@ struct Query {
   const uint8_t* solid = nullptr;
   std::vector<RayHit>* list = nullptr;
   size_t most = 0;
-  uint32_t item = 0; ///< being looked at
+  std::vector<RayCrossing>* crossings = nullptr; ///< with a solid, while they are gathered
+  uint32_t item = 0;                             ///< being looked at
   uint32_t hit_item = 0;
   bool needs_front = false, needs_back = false, flipped = false; ///< in that item
 
@@ -175,16 +177,14 @@ struct Query {
     flipped = it.flipped;
     return !(needs_front && needs_back);
   }
-  bool keeps(const RTCRay& ray, const RTCHit& hit) {
+  bool keeps(const RayCrossing& crossing) {
     if (needs_front || needs_back) {
-      // Embree's normals of quadrilaterals are along (first side) x (last side).
-      float towards = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z;
-      bool front = (towards < 0) != flipped;
+      bool front = (crossing.along < 0) != flipped;
       if (needs_front ? !front : front) return false;
     }
-    if (behind && !is_behind(ray.tfar, hit.primID)) return false;
+    if (behind && !is_behind(crossing.hit.distance, crossing.hit.face)) return false;
     if (!list || (solid && solid[item])) return true;
-    if (list->size() < most) list->push_back({ray.tfar, item, hit.primID, hit.u, hit.v});
+    if (list->size() < most) list->push_back(crossing.hit);
     return list->size() >= most;
   }
   bool is_behind(float distance, uint32_t face) const {
@@ -201,12 +201,25 @@ Query& query_of(const void* context, bool inner) {
                : *static_cast<const Query::Outer*>(context)->query;
 }
 
+RayCrossing crossing_of(const Query& q, const RTCFilterFunctionNArguments* args) {
+  const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
+  // Embree's normals of quadrilaterals are along (first side) x (last side).
+  float along = hit.Ng_x * ray.dir_x + hit.Ng_y * ray.dir_y + hit.Ng_z * ray.dir_z;
+  return {{ray.tfar, q.item, hit.primID, hit.u, hit.v}, along};
+}
+
 void filter_hit(const RTCFilterFunctionNArguments* args) {
   if (!args->valid[0]) return;
   Query& q = query_of(args->context, true);
-  const auto& ray = *reinterpret_cast<const RTCRay*>(args->ray);
-  const auto& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-  if (!q.keeps(ray, hit)) args->valid[0] = 0;
+  if (!q.keeps(crossing_of(q, args))) args->valid[0] = 0;
+}
+
+void gather_crossing(const RTCFilterFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& q = query_of(args->context, true);
+  q.crossings->push_back(crossing_of(q, args));
+  args->valid[0] = 0;
 }
 
 void set_ray(RTCRay& out, const RaySegment& ray) {
@@ -238,7 +251,8 @@ RTCRay place(const RTCRay& ray, const Matrix4& m) {
   return out;
 }
 
-/// What rays of both kinds do at an item: trace(faces, ray) takes the ray in the item's own space.
+/// What rays of both kinds do at an item: trace(query, is solid, faces, filter) takes the ray in the item's
+/// own space.
 template <class Arguments, class Trace> void visit_item(const Arguments* args, RTCRay& ray, Trace&& trace) {
   if (!args->valid[0]) return;
   Query& q = query_of(args->context, false);
@@ -249,25 +263,53 @@ template <class Arguments, class Trace> void visit_item(const Arguments* args, R
   if (!faces) return;
   const RTCRay whole = ray;
   if (item.placed) ray = place(ray, item.to_item);
-  trace(q, faces_of(faces), q.filters() ? filter_hit : nullptr);
+  trace(q, item.solid, faces_of(faces), q.filters() ? filter_hit : nullptr);
   const float reached = ray.tfar;
   ray = whole;
   ray.tfar = reached;
 }
 
+/// The nearest hit on a solid that counts. Which faces bound it depends on all that the ray crosses from its
+/// origin on, however near or far the hits may be that are looked for.
+std::optional<RayHit> hit_solid(Query& q, RTCScene faces, const RTCRay& ray) {
+  std::vector<RayCrossing> all;
+  q.crossings = &all;
+  RTCRay whole = ray;
+  whole.tnear = 0;
+  whole.tfar = kInfinity;
+  occluded(faces, q.inner, gather_crossing, whole);
+  if (all.empty()) return {};
+  for (uint32_t k : q.faces->bounding(q.item, {ray.org_x, ray.org_y, ray.org_z}, all))
+    if (all[k].hit.distance >= ray.tnear && all[k].hit.distance <= ray.tfar && q.keeps(all[k]))
+      return all[k].hit;
+  return {};
+}
+
 void intersect_item(const RTCIntersectFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  visit_item(args, ray.ray, [&](Query& q, auto faces, RTCFilterFunctionN filter) {
+  visit_item(args, ray.ray, [&](Query& q, bool solid, auto faces, RTCFilterFunctionN filter) {
     const float before = ray.ray.tfar;
-    intersect(faces, q.inner, filter, ray);
+    if (!solid)
+      intersect(faces, q.inner, filter, ray);
+    else if (auto hit = hit_solid(q, faces, ray.ray)) {
+      ray.ray.tfar = hit->distance;
+      ray.hit.geomID = 0;
+      ray.hit.primID = hit->face;
+      ray.hit.u = hit->u;
+      ray.hit.v = hit->v;
+    }
     if (ray.ray.tfar < before) q.hit_item = args->primID;
   });
 }
 
 void occlude_item(const RTCOccludedFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  visit_item(args, ray,
-             [&](Query& q, auto faces, RTCFilterFunctionN filter) { occluded(faces, q.inner, filter, ray); });
+  visit_item(args, ray, [&](Query& q, bool solid, auto faces, RTCFilterFunctionN filter) {
+    if (!solid)
+      occluded(faces, q.inner, filter, ray);
+    else if (hit_solid(q, faces, ray))
+      ray.tfar = -kInfinity;
+  });
 }
 
 void bound_item(const RTCBoundsFunctionArguments* args) {

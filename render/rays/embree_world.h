@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace render {
@@ -50,18 +51,9 @@ struct WorldItem {
   Box bounds;             ///< finite, in the space of the rays
   bool one_sided = false; ///< seen from its front only
   bool flipped = false;   ///< the front of its faces is the other side than (first side) x (last side)
+  bool solid = false;     ///< a constructed solid: only hits that bound it count (ItemFaces::bounding)
   bool placed = false;    ///< the faces are in a space of their own:
   Matrix4 to_item;        ///< from that of the rays to it
-};
-
-/// Gives the faces of items when they are wanted; called from many threads.
-class ItemFaces {
-public:
-  virtual ~ItemFaces() = default;
-  /// Null: there are none. What it gives stays until no query is running.
-  virtual const FaceScene* faces(uint32_t item) = 0;
-  /// Whether two faces of an item belong to one surface: a ray through the edge between them meets it once.
-  virtual bool same_surface(uint32_t item, uint32_t face, uint32_t other) const = 0;
 };
 
 struct RaySegment {
@@ -73,6 +65,26 @@ struct RayHit {
   float distance = kInfinity;
   uint32_t item = 0, face = 0;
   float u = 0, v = 0; ///< on the face: along its first side and along its last one
+};
+
+/// A face that a line goes through.
+struct RayCrossing {
+  RayHit hit;
+  float along = 0; ///< the ray's direction along (first side) x (last side), which is as long as the area
+};
+
+/// Gives the faces of items when they are wanted; called from many threads.
+class ItemFaces {
+public:
+  virtual ~ItemFaces() = default;
+  /// Null: there are none. What it gives stays until no query is running.
+  virtual const FaceScene* faces(uint32_t item) = 0;
+  /// Whether two faces of an item belong to one surface: a ray through the edge between them meets it once.
+  virtual bool same_surface(uint32_t item, uint32_t face, uint32_t other) const = 0;
+  /// Of all crossings of a ray from `origin` on with a solid the numbers of those that bound it, nearest
+  /// first.
+  virtual std::vector<uint32_t> bounding(uint32_t item, Vec3 origin,
+                                         std::span<const RayCrossing> crossings) const = 0;
 };
 
 /// Which hits count, for the rays of a batch.

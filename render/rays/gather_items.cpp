@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 namespace render {
@@ -28,8 +29,8 @@ bool nearly_equal(const Matrix4& a, const Matrix4& b) {
 bool same_geometry(const Geometry& a, const Geometry& b) {
   constexpr float kProbes[] = {0, 0.37f, 0.71f, 1};
   SurfaceLattice x, y;
-  a.evaluate(kProbes, kProbes, x);
-  b.evaluate(kProbes, kProbes, y);
+  a.evaluate({kProbes, kProbes}, x);
+  b.evaluate({kProbes, kProbes}, y);
   return x.P == y.P;
 }
 
@@ -50,6 +51,8 @@ public:
       std::erase_if(primitives, [&](uint32_t p) { return taken_[p]; });
       split(traits, primitives.begin(), primitives.end());
     }
+    for (auto& [tree, primitives] : solids_)
+      add_solid(tree, std::move(primitives));
   }
 
 private:
@@ -62,6 +65,7 @@ private:
   bool same_as_first(const ObjectCopy& copy, const ObjectCopy& first) const;
   bool can_be_shared(const ObjectCopy& copy) const;
   void split(const RayTraits& traits, List::iterator begin, List::iterator end);
+  void add_solid(const std::shared_ptr<const SolidTree>& tree, List primitives);
   Item& add(const RayTraits& traits, List primitives);
 
   RayGeometry& out_;
@@ -69,6 +73,10 @@ private:
   const Camera& camera_;
   bool sampled_ = false; ///< some rays see motion
   std::map<RayTraits, List> by_traits_;
+  struct ByNumber {
+    bool operator()(const auto& a, const auto& b) const { return a->number() < b->number(); }
+  };
+  std::map<std::shared_ptr<const SolidTree>, List, ByNumber> solids_;
   std::vector<Box> bounds_;     ///< by primitive; empty: rays do not see it
   std::vector<FaceRate> rates_; ///< by primitive
   std::vector<uint8_t> taken_;  ///< is part of an instance
@@ -96,11 +104,13 @@ void RayGeometry::Gatherer::find_visible() {
   for (uint32_t i = 0; i < scene_.primitives.size(); ++i) {
     const Primitive& p = scene_.primitives[i];
     // Of the two versions of an object between two levels of detail, rays see the one that most samples do.
-    if (!p.attributes().rays.seen_by_rays() || !p.state->level.has(0.5f)) continue;
+    // What is cut out of a solid is so whether rays see it or not.
+    const bool solid = p.state->solid != nullptr;
+    if (!(solid || p.attributes().rays.seen_by_rays()) || !p.state->level.has(0.5f)) continue;
     Box box = p.camera_bound({});
     if (!is_usable(box)) continue;
     bounds_[i] = box;
-    by_traits_[traits_of(p)].push_back(i);
+    (solid ? solids_[p.state->solid] : by_traits_[traits_of(p)]).push_back(i);
   }
 }
 
@@ -123,7 +133,7 @@ bool RayGeometry::Gatherer::can_be_shared(const ObjectCopy& copy) const {
   for (size_t i = copy.first; i < copy.first + copy.count; ++i) {
     const Primitive& p = scene_.primitives[i];
     bool moves = sampled_ && (!p.state->motion.empty() || !p.deformation.empty());
-    if (bounds_[i].empty() || moves || is_displaced_for_rays(p, out_.displacer_) ||
+    if (bounds_[i].empty() || moves || p.state->solid || is_displaced_for_rays(p, out_.displacer_) ||
         p.state->attributes != first.state->attributes || p.state->mirrored != first.state->mirrored)
       return false;
   }
@@ -219,12 +229,38 @@ RayGeometry::Item& RayGeometry::Gatherer::add(const RayTraits& traits, List prim
   for (uint32_t p : primitives) {
     item->first_face.push_back(faces);
     item->rates.push_back(rates_[p]);
+    item->displaced.push_back(is_displaced_for_rays(scene_.primitives[p], out_.displacer_));
     item->bounds.add(bounds_[p]);
     faces += static_cast<uint32_t>(rates_[p].faces());
   }
   item->first_face.push_back(faces);
   item->primitives = std::move(primitives);
   return *out_.items_.emplace_back(std::move(item));
+}
+
+/// A solid is one item, seen by all rays that see any of its surfaces. Those that none sees bound it, too.
+void RayGeometry::Gatherer::add_solid(const std::shared_ptr<const SolidTree>& tree, List primitives) {
+  auto solid = std::make_unique<RaySolid>();
+  solid->tree = tree;
+  solid->bounds.resize(tree->size());
+  std::optional<RayTraits> traits;
+  bool opaque = true;
+  for (uint32_t p : primitives) {
+    const PrimitiveState& state = *scene_.primitives[p].state;
+    solid->node.push_back(state.solid_primitive);
+    solid->bounds[state.solid_primitive].add(bounds_[p]);
+    RayTraits own = traits_of(scene_.primitives[p]);
+    opaque = opaque && own.shadow == RayOpacity::kOpaque;
+    if (!state.attributes->rays.seen_by_rays()) continue;
+    if (!traits) traits = own;
+    traits->specular = traits->specular || own.specular;
+    traits->diffuse = traits->diffuse || own.diffuse;
+    traits->moving = traits->moving || own.moving;
+    traits->shadow = std::max(traits->shadow, own.shadow);
+  }
+  if (!traits) return;
+  if (!opaque && traits->shadow == RayOpacity::kOpaque) traits->shadow = RayOpacity::kShader;
+  add(*traits, std::move(primitives)).solid = std::move(solid);
 }
 
 RayGeometry::RayGeometry(const Scene& scene, const Camera& camera, Displacer* displacer,
@@ -240,6 +276,7 @@ RayGeometry::RayGeometry(const Scene& scene, const Camera& camera, Displacer* di
     w.bounds.grow(1e-5f *
                   std::max({size.x, size.y, size.z, glm::length(w.bounds.min), glm::length(w.bounds.max)}));
     w.one_sided = item->traits.one_sided;
+    w.solid = item->solid != nullptr;
     w.placed = item->placed;
     w.to_item = item->to_object;
     // Normals turn round where the space of the faces is a mirror image.

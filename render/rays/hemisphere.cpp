@@ -2,6 +2,7 @@
 // of them.
 #include "render/rays/hemisphere_cache.h"
 #include "render/rays/hemisphere_lattice.h"
+#include "render/rays/hemisphere_records.h"
 #include "render/rays/hemisphere_sampler.h"
 
 #include <cmath>
@@ -50,60 +51,132 @@ bool is_usable(const HemispherePoint& p) {
 
 } // namespace
 
-std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::HemisphereQuery& query) {
-  const slvm::Grid& grid = state.grid;
-  const auto* primitive = static_cast<const Primitive*>(grid.user);
-  const RayAttributes& attributes = attributes_of(grid);
-  float max_error = query.max_error >= 0 ? query.max_error : attributes.max_error;
-  float most_pixels =
-      query.max_pixel_distance >= 0 ? query.max_pixel_distance : attributes.max_pixel_distance;
-  bool lattice =
-      grid.lattice == slvm::Lattice::kRows && query.points == grid.points() && grid.nu() > 1 && grid.nv() > 1;
-  bool interpolates = max_error > 0 && lattice;
-  HemisphereSampler sampler(*this, state, query, interpolates);
-  std::vector<HemispherePoint> points;
-  std::vector<uint64_t> mask(query.points / 64 + 1);
-  // Of hits only those that count.
-  size_t asked = query.points == grid.points() ? std::min(query.points, grid.samples()) : query.points;
-  for (size_t i = 0; i < asked; ++i) {
-    HemispherePoint p = point_of(query, i);
-    if (interpolates) p.base = 0; // samples stand for more than their element
-    bool wanted = is_on(query, i) && is_usable(p) && sampler.may_shoot();
-    if (wanted) mask[i / 64] |= uint64_t{1} << (i % 64);
-    if (is_on(query, i) && !wanted) store(query, i, {});
-    if (interpolates || wanted) points.push_back(p);
+/// The points of a query one after the other, from samples or between them.
+class RayTracer::HemisphereRun {
+public:
+  HemisphereRun(RayTracer& tracer, const slvm::ShadingState& state, const slvm::HemisphereQuery& query)
+      : tracer_(tracer), state_(state), grid_(state.grid), query_(query),
+        attributes_(tracer.attributes_of(grid_)),
+        max_error_(query.max_error >= 0 ? query.max_error : attributes_.max_error),
+        most_pixels_(query.max_pixel_distance >= 0 ? query.max_pixel_distance
+                                                   : attributes_.max_pixel_distance),
+        whole_(query.points == grid_.points()),
+        // Of hits only those that count.
+        asked_(whole_ ? std::min(query.points, grid_.samples()) : query.points),
+        sampler_(tracer, state, query, max_error_ > 0 && whole_), mask_(query.points / 64 + 1) {}
+
+  std::string run() {
+    check_space();
+    const bool interpolates = max_error_ > 0 && whole_;
+    for (size_t i = 0; i < asked_; ++i) {
+      HemispherePoint p = point_of(query_, i);
+      if (interpolates) p.base = 0; // samples stand for more than their element
+      bool wanted = is_on(query_, i) && is_usable(p) && sampler_.may_shoot();
+      if (wanted) mask_[i / 64] |= uint64_t{1} << (i % 64);
+      if (is_on(query_, i) && !wanted) store(query_, i, {});
+      points_.push_back(p);
+    }
+    if (!sampler_.may_shoot()) return "";
+    if (!interpolates)
+      sample_all();
+    else if (grid_.lattice == slvm::Lattice::kRows && grid_.points() >= kFewestOfLattice && grid_.nu() > 1 &&
+             grid_.nv() > 1)
+      fill_between();
+    else
+      look_up();
+    return sampler_.problem().empty() ? space_problem_ : sampler_.problem();
   }
-  if (!sampler.may_shoot()) return "";
-  if (!interpolates) {
-    std::vector<HemisphereSample> samples(points.size());
-    sampler.sample(points, samples);
-    for (size_t k = 0; k < points.size(); ++k)
-      for (size_t i = points[k].number; i < query.points; i += asked)
-        store(query, i, samples[k]); // and the neighbours of a hit
-    return sampler.problem();
+
+private:
+  /// Smaller grids are too small to be interpolated in themselves.
+  static constexpr size_t kFewestOfLattice = 64;
+
+  /// Samples are kept for a frame, in which nothing moves: in one space as in another. It must exist, though.
+  void check_space() {
+    const std::string_view name = query_.cache_space;
+    Matrix4 unused;
+    if (name.empty() || name == "current" || name == "object" || name == "shader" ||
+        tracer_.services_.current_to_space(state_, name, unused))
+      return;
+    space_problem_ = "there is no coordinate system \"" + std::string(name) + "\"";
   }
-  LatticeProblem problem;
-  problem.nu = grid.nu();
-  problem.nv = grid.nv();
-  problem.points = points;
-  problem.mask = mask.data();
-  problem.max_error = max_error;
-  // Half of what is noise in a sample does not count.
-  problem.tolerance = 0.1f * max_error + 0.3f / std::sqrt(std::max(query.samples, 1.0f));
-  float step = primitive ? std::sqrt(primitive->attributes().shading_rate) : 1.0f;
-  problem.most_steps = static_cast<int>(std::clamp(most_pixels / step, 1.0f, 1e6f));
-  problem.sample = [&](const HemispherePoint& p) {
-    HemisphereCache::Key key(p.P, p.N, sampler.call_hash(p));
-    if (auto known = cache_->find(key)) return *known;
+
+  bool wanted(size_t i) const { return mask_[i / 64] >> (i % 64) & 1; }
+  /// Also for the neighbours of a hit.
+  void store_all(size_t point, const HemisphereSample& s) const {
+    for (size_t i = point; i < query_.points; i += asked_)
+      store(query_, i, s);
+  }
+  /// By which a sample may differ from what its surroundings foretell: half of what is noise in it does not
+  /// count.
+  float tolerance() const { return 0.1f * max_error_ + 0.3f / std::sqrt(std::max(query_.samples, 1.0f)); }
+
+  void sample_all() {
+    std::erase_if(points_, [&](const HemispherePoint& p) { return !wanted(p.number); });
+    std::vector<HemisphereSample> samples(points_.size());
+    sampler_.sample(points_, samples);
+    for (size_t k = 0; k < points_.size(); ++k)
+      store_all(points_[k].number, samples[k]);
+  }
+
+  RecordRule rule_at(const HemispherePoint& p) const {
+    const Camera& camera = tracer_.camera_;
+    float z = camera.perspective() ? std::max(glm::length(p.P), camera.near_plane()) : 1.0f;
+    float pixel = 1 / camera.pixels_per_unit(z);
+    return {sampler_.call_hash(p), max_error_, tolerance(), pixel, std::max(most_pixels_, 1.0f) * pixel};
+  }
+
+  HemisphereSample sample_at(const HemispherePoint& p) {
+    HemisphereCache::Key key(p.P, p.N, sampler_.call_hash(p));
+    if (auto known = tracer_.cache_->find(key)) return *known;
     HemisphereSample s;
-    sampler.sample({&p, 1}, {&s, 1});
-    cache_->add(key, s);
+    sampler_.sample({&p, 1}, {&s, 1});
+    tracer_.cache_->add(key, s);
+    tracer_.records_->add(rule_at(p), p.P, p.N, s);
     return s;
-  };
-  std::vector<HemisphereSample> samples = fill_lattice(problem);
-  for (size_t i = 0; i < samples.size(); ++i)
-    if (mask[i / 64] >> (i % 64) & 1) store(query, i, samples[i]);
-  return sampler.problem();
+  }
+
+  void fill_between() {
+    const auto* primitive = static_cast<const Primitive*>(grid_.user);
+    LatticeProblem problem;
+    problem.nu = grid_.nu();
+    problem.nv = grid_.nv();
+    problem.points = points_;
+    problem.mask = mask_.data();
+    problem.max_error = max_error_;
+    problem.tolerance = tolerance();
+    float step = primitive ? std::sqrt(primitive->attributes().shading_rate) : 1.0f;
+    problem.most_steps = static_cast<int>(std::clamp(most_pixels_ / step, 1.0f, 1e6f));
+    problem.sample = [&](const HemispherePoint& p) { return sample_at(p); };
+    std::vector<HemisphereSample> samples = fill_lattice(problem);
+    for (size_t i = 0; i < samples.size(); ++i)
+      if (wanted(i)) store(query_, i, samples[i]);
+  }
+
+  void look_up() {
+    for (const HemispherePoint& p : points_) {
+      if (!wanted(p.number)) continue;
+      auto found = tracer_.records_->find(rule_at(p), p.P, p.N);
+      store_all(p.number, found ? *found : sample_at(p));
+    }
+  }
+
+  RayTracer& tracer_;
+  const slvm::ShadingState& state_;
+  const slvm::Grid& grid_;
+  const slvm::HemisphereQuery& query_;
+  const RayAttributes& attributes_;
+  float max_error_, most_pixels_;
+  bool whole_; ///< all points of the grid are asked for
+  size_t asked_;
+  HemisphereSampler sampler_;
+  std::vector<HemispherePoint> points_;
+  std::vector<uint64_t> mask_; ///< of points that rays are shot for
+  std::string space_problem_;
+};
+
+std::string RayTracer::hemisphere(const slvm::ShadingState& state, const slvm::HemisphereQuery& query) {
+  return HemisphereRun(*this, state, query).run();
 }
 
 } // namespace render

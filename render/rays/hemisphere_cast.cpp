@@ -33,7 +33,7 @@ void HemisphereSampler::cast_blocked(std::span<const HemispherePoint> points, Ra
 
 void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays) {
   tracer_.hemisphere_rays_ += rays.size();
-  if (!interpolated_ && !wants_light_ && query_.falloff == 0 && pattern_.blocks() == pattern_.cells())
+  if (only_blocked())
     cast_blocked(points, rays);
   else {
     slvm::RayBatch batch;
@@ -42,16 +42,22 @@ void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays
     light.from = slvm::RayOutput::From::kShaded;
     light.name = "Ci";
     light.type = slvm::Type::kColor;
-    std::vector<float> colours(3 * rays.size());
-    light.data = colours.data();
+    rays.colours.assign(wants_light_ ? 3 * rays.size() : 0, 0.0f);
+    light.data = rays.colours.data();
     light.pitch = rays.size();
     for (int c = 0; c < 3; ++c) {
       batch.origin[c] = rays.origin[c].data();
       batch.direction[c] = rays.direction[c].data();
+      if (query_.weight[c]) {
+        rays.weight[c].clear();
+        for (uint32_t point : rays.point)
+          rays.weight[c].push_back(query_.weight[c][point]);
+        batch.weight[c] = rays.weight[c].data();
+      }
+      if (!needs_width()) continue;
       batch.origin_du[c] = batch.origin_dv[c] = rays.still[c].data();
       batch.direction_du[c] = rays.direction_du[c].data();
       batch.direction_dv[c] = rays.direction_dv[c].data();
-      if (query_.weight[c]) batch.weight[c] = rays.weight[c].data();
     }
     batch.max_distance = rays.max_distance.data();
     batch.bias = rays.bias.data();
@@ -66,8 +72,8 @@ void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays
       float d = rays.distance[i];
       cell.distance = d == slvm::kNotShot ? kInfinity : d;
       cell.blocked = blocked_by(points[rays.index[i]], cell.distance);
-      if (cell.distance < kInfinity)
-        cell.light = {colours[i], colours[rays.size() + i], colours[2 * rays.size() + i]};
+      if (wants_light_ && cell.distance < kInfinity)
+        cell.light = {rays.colours[i], rays.colours[rays.size() + i], rays.colours[2 * rays.size() + i]};
     }
   }
   if (wants_map_) look_up_map(rays);

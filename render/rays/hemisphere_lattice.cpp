@@ -7,7 +7,7 @@ namespace render {
 
 namespace {
 
-/// Lines and cells of fewer steps are interpolated without a look at their middles.
+/// Lines and cells of fewer steps whose ends agree are interpolated without a look at their middles.
 constexpr int kVerified = 4;
 constexpr size_t kValues = HemisphereSample::kValues, kGradients = HemisphereSample::kGradients;
 
@@ -68,7 +68,7 @@ private:
     if (steps < 2) return;
     int middle = steps / 2, centre = first + stride * middle;
     bool near = can_interpolate(first, stride, steps);
-    if (near && steps < kVerified) {
+    if (near && steps < kVerified && agree(at(first), at(first + stride * steps))) {
       interpolate(first, stride, steps);
       return;
     }
@@ -141,8 +141,10 @@ private:
   /// The inside of a rectangle whose edges are known.
   void cell(int i0, int j0, int i1, int j1) {
     if (i1 - i0 < 2 || j1 - j0 < 2) return;
-    if (cell_is_near(i0, j0, i1, j1)) {
-      if (std::min(i1 - i0, j1 - j0) < kVerified) {
+    if (cell_is_near(i0, j0, i1, j1) && has_smooth_edges({i0, j0, i1, j1})) {
+      const HemisphereSample& corner = at(j0 * p_.nu + i0);
+      if (std::min(i1 - i0, j1 - j0) < kVerified && agree(corner, at(j0 * p_.nu + i1)) &&
+          agree(corner, at(j1 * p_.nu + i0)) && agree(corner, at(j1 * p_.nu + i1))) {
         blend_cell({i0, j0, i1, j1}, nullptr);
         return;
       }
@@ -185,6 +187,19 @@ private:
   struct Cell {
     int i0, j0, i1, j1;
   };
+
+  /// Whether the edges are what their ends foretell. Where something begins or ends on an edge, it does so
+  /// inside, too, at places that no blend of the edges finds.
+  bool has_smooth_edges(const Cell& c) {
+    const int width = c.i1 - c.i0, height = c.j1 - c.j0;
+    return is_smooth(c.j0 * p_.nu + c.i0, 1, width) && is_smooth(c.j1 * p_.nu + c.i0, 1, width) &&
+           is_smooth(c.j0 * p_.nu + c.i0, p_.nu, height) && is_smooth(c.j0 * p_.nu + c.i1, p_.nu, height);
+  }
+  bool is_smooth(int first, int stride, int steps) {
+    for (int i = 1; i < steps; ++i)
+      if (!agree(on_line(first, stride, steps, i), at(first + stride * i))) return false;
+    return true;
+  }
 
   /// Coons' blend of the four edges at a point inside.
   HemisphereSample in_cell(const Cell& cell, int i, int j) {

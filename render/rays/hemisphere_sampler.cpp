@@ -6,6 +6,7 @@
 #include "render/rays/hemisphere_cache.h"
 #include "render/rays/hemisphere_rays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -87,6 +88,7 @@ Vec3 HemisphereSampler::aim(const HemispherePoint& p, uint64_t seed, int cell, V
 }
 
 int HemisphereSampler::chosen_cell(int block, uint64_t seed) const {
+  if (pattern_.blocks() == pattern_.cells()) return block;
   int across = pattern_.sectors / pattern_.sector_block;
   uint64_t h = mix(seed, uint64_t(block) + (uint64_t{1} << 32));
   int in_ring = static_cast<int>(upper_unit(h) * static_cast<float>(pattern_.ring_block)),
@@ -97,19 +99,22 @@ int HemisphereSampler::chosen_cell(int block, uint64_t seed) const {
 
 namespace {
 
+/// `spread`: 0 where nobody wants to know how wide rays are.
 template <class RaysT, class CellT>
 void push_ray(RaysT& rays, const HemispherePoint& p, size_t index, Vec3 origin, Vec3 direction, float spread,
-              int sample, Color weight, CellT* cell) {
-  Vec3 x, y;
-  basis_about(direction, x, y);
+              int sample, CellT* cell) {
   for (int c = 0; c < 3; ++c) {
     rays.origin[c].push_back(origin[c]);
     rays.direction[c].push_back(direction[c]);
-    rays.direction_du[c].push_back(x[c] * spread);
-    rays.direction_dv[c].push_back(y[c] * spread);
-    rays.still[c].push_back(0);
-    rays.colour[c].push_back(0);
-    rays.weight[c].push_back(weight[c]);
+  }
+  if (spread > 0) {
+    Vec3 x, y;
+    basis_about(direction, x, y);
+    for (int c = 0; c < 3; ++c) {
+      rays.direction_du[c].push_back(x[c] * spread);
+      rays.direction_dv[c].push_back(y[c] * spread);
+      rays.still[c].push_back(0);
+    }
   }
   rays.max_distance.push_back(p.max_distance);
   rays.bias.push_back(p.bias);
@@ -129,13 +134,15 @@ float spread_of(const HemispherePattern& p) {
 } // namespace
 
 void HemisphereSampler::first_rays(std::span<const HemispherePoint> points, Rays& rays) {
+  const float spread = needs_width() ? spread_of(pattern_) : 0.0f;
+  chosen_.clear();
   for (size_t i = 0; i < points.size(); ++i) {
     uint64_t seed = seed_of(points[i]);
-    Color weight = shooter_.weight(query_.weight, points[i].number, points[i].number);
     for (int b = 0; b < pattern_.blocks(); ++b) {
       int cell = chosen_cell(b, seed);
+      chosen_.push_back(cell);
       Vec3 origin, direction = aim(points[i], seed, cell, origin);
-      push_ray(rays, points[i], i, origin, direction, spread_of(pattern_), cell, weight,
+      push_ray(rays, points[i], i, origin, direction, spread, cell,
                &cells_[i * static_cast<size_t>(pattern_.cells()) + static_cast<size_t>(cell)]);
     }
   }
@@ -143,6 +150,7 @@ void HemisphereSampler::first_rays(std::span<const HemispherePoint> points, Rays
 
 bool HemisphereSampler::differs(const Cell& a, const Cell& b) const {
   if ((a.distance == kInfinity) != (b.distance == kInfinity)) return true;
+  if (only_blocked()) return false;
   if (a.distance != kInfinity &&
       std::max(a.distance, b.distance) > kDistanceContrast * std::min(a.distance, b.distance))
     return true;
@@ -154,18 +162,18 @@ bool HemisphereSampler::differs(const Cell& a, const Cell& b) const {
 
 /// The cells left in blocks that differ from one of the four beside them.
 void HemisphereSampler::more_rays(std::span<const HemispherePoint> points, Rays& rays) {
+  const float spread = needs_width() ? spread_of(pattern_) : 0.0f;
   int across = pattern_.sectors / pattern_.sector_block, down = pattern_.rings / pattern_.ring_block;
   for (size_t i = 0; i < points.size(); ++i) {
     uint64_t seed = seed_of(points[i]);
-    Color weight = shooter_.weight(query_.weight, points[i].number, points[i].number);
     Cell* cells = &cells_[i * static_cast<size_t>(pattern_.cells())];
+    const int* chosen = &chosen_[i * static_cast<size_t>(pattern_.blocks())];
     std::vector<int> wanted;
     for (int b = 0; b < pattern_.blocks(); ++b) {
       int row = b / across, column = b % across;
-      const Cell& own = cells[chosen_cell(b, seed)];
+      const Cell& own = cells[chosen[b]];
       auto other = [&](int r, int c) {
-        return r >= 0 && r < down &&
-               differs(own, cells[chosen_cell(r * across + (c + across) % across, seed)]);
+        return r >= 0 && r < down && differs(own, cells[chosen[r * across + (c + across) % across]]);
       };
       if (other(row - 1, column) || other(row + 1, column) || other(row, column - 1) ||
           other(row, column + 1))
@@ -177,7 +185,7 @@ void HemisphereSampler::more_rays(std::span<const HemispherePoint> points, Rays&
                    b % across * pattern_.sector_block + k % pattern_.sector_block;
         if (cells[cell].shot) continue;
         Vec3 origin, direction = aim(points[i], seed, cell, origin);
-        push_ray(rays, points[i], i, origin, direction, spread_of(pattern_), cell, weight, &cells[cell]);
+        push_ray(rays, points[i], i, origin, direction, spread, cell, &cells[cell]);
       }
   }
 }
@@ -191,48 +199,53 @@ float HemisphereSampler::blocked_by(const HemispherePoint& p, float distance) co
              : 1.0f;
 }
 
-/// Cells that were left out are like the one of their block that was not; of a block with several, all were
-/// shot.
-void HemisphereSampler::spread_blocks(Cell* cells) const {
-  int across = pattern_.sectors / pattern_.sector_block;
+/// f(cells of a block, how many of them were shot: one or all) for all blocks.
+template <class F> void HemisphereSampler::for_blocks(Cell* cells, F&& f) const {
+  const int across = pattern_.sectors / pattern_.sector_block,
+            size = pattern_.ring_block * pattern_.sector_block;
+  std::vector<Cell*> block(static_cast<size_t>(size));
   for (int b = 0; b < pattern_.blocks(); ++b) {
-    auto cell_at = [&](int k) -> Cell& {
-      return cells[(b / across * pattern_.ring_block + k / pattern_.sector_block) * pattern_.sectors +
-                   b % across * pattern_.sector_block + k % pattern_.sector_block];
-    };
-    int size = pattern_.ring_block * pattern_.sector_block;
-    const Cell* shot = nullptr;
-    for (int k = 0; k < size; ++k)
-      if (cell_at(k).shot) shot = &cell_at(k);
-    for (int k = 0; k < size && shot; ++k)
-      if (!cell_at(k).shot) {
-        Cell copy = *shot;
-        copy.shot = false;
-        cell_at(k) = copy;
-      }
+    int shot = 0;
+    for (int k = 0; k < size; ++k) {
+      Cell& cell = cells[(b / across * pattern_.ring_block + k / pattern_.sector_block) * pattern_.sectors +
+                         b % across * pattern_.sector_block + k % pattern_.sector_block];
+      block[static_cast<size_t>(k)] = &cell;
+      shot += cell.shot;
+    }
+    f(std::span<Cell* const>(block), shot);
   }
 }
 
 void HemisphereSampler::finish(const HemispherePoint& p, Cell* cells, HemisphereSample& out) const {
-  spread_blocks(cells);
-  auto count = static_cast<size_t>(pattern_.cells());
   double sum[HemisphereSample::kValues] = {}, nearness = 0;
-  for (size_t k = 0; k < count; ++k) {
-    const Cell& cell = cells[k];
-    sum[0] += cell.blocked;
-    for (int c = 0; c < 3; ++c) {
-      sum[1 + c] += cell.light[c];
-      sum[4 + c] += cell.map[c];
-      if (cell.distance == kInfinity) sum[7 + c] += cell.direction[c];
+  auto add = [&](const Cell& cell, float weight) {
+    sum[0] += weight * cell.blocked;
+    for (int c = 0; c < 3 && needs_width(); ++c) {
+      sum[1 + c] += weight * cell.light[c];
+      sum[4 + c] += weight * cell.map[c];
     }
+    for (int c = 0; c < 3 && cell.distance == kInfinity; ++c)
+      sum[7 + c] += weight * cell.direction[c];
     // Behind the farthest distance there may be anything.
     float distance = std::min(cell.distance, p.max_distance);
-    if (distance < kInfinity) nearness += 1 / std::max(distance, 1e-20f);
-  }
+    if (distance < kInfinity) nearness += weight / std::max(distance, 1e-20f);
+  };
+  for_blocks(cells, [&](std::span<Cell* const> block, int shot) {
+    // Cells that were left out are like the one of their block that was not.
+    for (const Cell* cell : block)
+      if (cell->shot) add(*cell, static_cast<float>(block.size()) / static_cast<float>(shot));
+  });
+  const double count = pattern_.cells();
   for (size_t i = 0; i < HemisphereSample::kValues; ++i)
-    out.value[i] = static_cast<float>(sum[i] / static_cast<double>(count));
-  out.distance = nearness > 0 ? static_cast<float>(static_cast<double>(count) / nearness) : kInfinity;
-  if (interpolated_ && query_.cosine && p.cone <= kPi / 2 + 1e-4f) gradients(p, cells, out);
+    out.value[i] = static_cast<float>(sum[i] / count);
+  out.distance = nearness > 0 ? static_cast<float>(count / nearness) : kInfinity;
+  if (!interpolated_ || !query_.cosine || p.cone > kPi / 2 + 1e-4f) return;
+  for_blocks(cells, [](std::span<Cell* const> block, int) {
+    const Cell seen = **std::find_if(block.begin(), block.end(), [](const Cell* c) { return c->shot; });
+    for (Cell* cell : block)
+      if (!cell->shot) *cell = seen;
+  });
+  gradients(p, cells, out);
 }
 
 /// Ward and Heckbert 1992, equations for the rotation and the translation gradient, for means instead of
@@ -242,47 +255,57 @@ void HemisphereSampler::gradients(const HemispherePoint& p, const Cell* cells, H
   float reach = std::sin(std::min(p.cone, kPi / 2));
   Vec3 x, y;
   basis_about(p.N, x, y);
-  auto values = [](const Cell& c) {
-    return std::array<float, HemisphereSample::kGradients>{c.blocked, c.light.x, c.light.y, c.light.z,
-                                                           c.map.x,   c.map.y,   c.map.z};
+  // Light and map only where they are asked for.
+  const size_t count = needs_width() ? HemisphereSample::kGradients : 1;
+  auto value = [](const Cell& c, size_t i) {
+    return i == 0 ? c.blocked : i < 4 ? c.light[static_cast<int>(i - 1)] : c.map[static_cast<int>(i - 4)];
   };
-  auto sine = [&](int ring) { return reach * std::sqrt(static_cast<float>(ring) / static_cast<float>(M)); };
+  auto sine = [&](float ring) { return reach * std::sqrt(ring / static_cast<float>(M)); };
   auto around = [&](float sector) {
     float a = 2 * kPi * sector / static_cast<float>(N);
     return x * std::cos(a) + y * std::sin(a);
   };
-  float norm = 1 / (kPi * reach * reach);
+  const float norm = 1 / (kPi * reach * reach);
+  auto move = [&](const Cell& cell, const Cell& other, Vec3 along, float factor) {
+    float nearest = std::min(cell.distance, other.distance);
+    if (!(nearest < kInfinity)) return;
+    for (size_t i = 0; i < count; ++i)
+      if (float change = value(cell, i) - value(other, i); change != 0)
+        out.move[i] += along * (factor * norm / std::max(nearest, 1e-6f) * change);
+  };
+  struct Ring {
+    float inner, width,
+        turn; ///< of the ring's edge towards the axis; to the other one; by the cell's tangent
+  };
+  std::vector<Ring> rings;
+  for (int j = 0; j < M; ++j) {
+    float s = sine(static_cast<float>(j)), middle = sine(static_cast<float>(j) + 0.5f);
+    float tangent = middle / std::sqrt(std::max(1 - middle * middle, 1e-4f));
+    rings.push_back({2 * kPi / static_cast<float>(N) * s * (1 - s * s), sine(static_cast<float>(j + 1)) - s,
+                     tangent / static_cast<float>(M * N)});
+  }
   for (int k = 0; k < N; ++k) {
     Vec3 radial = around(static_cast<float>(k) + 0.5f);
     Vec3 turned = glm::cross(p.N, radial), at_edge = glm::cross(p.N, around(static_cast<float>(k)));
     for (int j = 0; j < M; ++j) {
       const Cell& cell = cells[j * N + k];
-      auto here = values(cell);
-      float middle = reach * std::sqrt((static_cast<float>(j) + 0.5f) / static_cast<float>(M));
-      float tangent = middle / std::sqrt(std::max(1 - middle * middle, 1e-4f));
-      auto add = [&](const Cell& other, Vec3 along, float factor) {
-        float nearest = std::min(cell.distance, other.distance);
-        if (!(nearest < kInfinity)) return;
-        auto there = values(other);
-        for (size_t i = 0; i < here.size(); ++i)
-          out.move[i] += along * (factor * norm / std::max(nearest, 1e-6f) * (here[i] - there[i]));
-      };
-      if (j > 0) {
-        float s = sine(j);
-        add(cells[(j - 1) * N + k], radial, 2 * kPi / static_cast<float>(N) * s * (1 - s * s));
-      }
-      add(cells[j * N + (k + N - 1) % N], at_edge, sine(j + 1) - sine(j));
-      for (size_t i = 0; i < here.size(); ++i)
-        out.turn[i] += turned * (tangent * here[i] / static_cast<float>(M * N));
+      const Ring& ring = rings[static_cast<size_t>(j)];
+      if (j > 0) move(cell, cells[(j - 1) * N + k], radial, ring.inner);
+      move(cell, cells[j * N + (k + N - 1) % N], at_edge, ring.width);
+      for (size_t i = 0; i < count; ++i)
+        out.turn[i] += turned * (ring.turn * value(cell, i));
     }
   }
 }
+
+HemisphereSampler::~HemisphereSampler() = default;
 
 void HemisphereSampler::sample(std::span<const HemispherePoint> points, std::span<HemisphereSample> out) {
   auto cells = static_cast<size_t>(pattern_.cells());
   size_t at_a_time = std::max<size_t>(1, kRaysAtATime / cells);
   tracer_.hemispheres_ += points.size();
-  Rays rays;
+  if (!rays_) rays_ = std::make_unique<Rays>();
+  Rays& rays = *rays_;
   for (size_t first = 0; first < points.size();) {
     auto part = points.subspan(first, std::min(at_a_time, points.size() - first));
     if (interpolated_) { // a sample belongs to its place, whichever grid asks

@@ -5,6 +5,7 @@
 #include "render/rays/hemisphere_sample.h"
 #include "render/rays/shooter.h"
 
+#include <memory>
 #include <string>
 
 namespace render {
@@ -14,6 +15,7 @@ public:
   /// `interpolated`: samples are used at other points, too, and need distances and gradients.
   HemisphereSampler(RayTracer& tracer, const slvm::ShadingState& state, const slvm::HemisphereQuery& query,
                     bool interpolated);
+  ~HemisphereSampler();
 
   /// Whether any rays may be shot.
   bool may_shoot() const { return shooter_.may_shoot; }
@@ -40,7 +42,7 @@ private:
   void cast_blocked(std::span<const HemispherePoint> points, Rays& rays);
   void look_up_map(Rays& rays);
   void finish(const HemispherePoint& point, Cell* cells, HemisphereSample& out) const;
-  void spread_blocks(Cell* cells) const;
+  template <class F> void for_blocks(Cell* cells, F&& f) const;
   void gradients(const HemispherePoint& point, const Cell* cells, HemisphereSample& out) const;
   bool differs(const Cell& a, const Cell& b) const;
   float blocked_by(const HemispherePoint& point, float distance) const;
@@ -55,7 +57,14 @@ private:
   bool interpolated_, wants_light_, wants_map_;
   Matrix4 to_map_;
   uint64_t call_ = 0;
-  std::vector<Cell> cells_; ///< of all points being sampled
+  /// Whether it is enough to know if there is anything.
+  bool only_blocked() const { return !interpolated_ && !wants_light_ && query_.falloff == 0; }
+  /// Whether rays bring anything that is filtered.
+  bool needs_width() const { return wants_light_ || wants_map_; }
+
+  std::vector<Cell> cells_;    ///< of all points being sampled
+  std::vector<int> chosen_;    ///< of each block of each point: the cell that is shot first
+  std::unique_ptr<Rays> rays_; ///< with its memory
   std::string problem_;
 };
 

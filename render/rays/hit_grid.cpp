@@ -15,7 +15,7 @@ using slvm::Global;
 /// nearer is extrapolated.
 constexpr float kLeastStep = 1.0f / 8192, kMostStep = 1.0f / 16;
 /// How far from the ray a hit may be, by its distance: about half a pixel of a usual camera.
-constexpr float kNearEnough = 2e-4f;
+constexpr float kNearEnough = 3e-4f;
 /// Footprints do not grow further at more grazing angles.
 constexpr float kLeastCosine = 0.03f;
 
@@ -37,26 +37,27 @@ Vec2 nearest_combination(Vec3 x, Vec3 y, Vec3 d) {
   return {0, dy / yy};
 }
 
-/// The point of the surface that lies nearest to `target`, from a place near it: faces are a little off the
-/// surface, and their own parameters off its.
-SurfaceSpot settle(const Primitive& primitive, Vec3 target, float tolerance, float& u, float& v,
-                   SurfaceLattice& scratch) {
-  constexpr int kRounds = 6;
-  SurfaceSpot spot = evaluate_spot(primitive, u, v, scratch);
-  for (int i = 0; i < kRounds && glm::distance(spot.P, target) > tolerance; ++i) {
-    Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, target - spot.P);
-    float longest = std::max(std::abs(step.x), std::abs(step.y));
-    if (!(longest < kInfinity)) break;
-    if (longest > 0.5f) step *= 0.5f / longest;
-    float to_u = std::clamp(u + step.x, 0.0f, 1.0f), to_v = std::clamp(v + step.y, 0.0f, 1.0f);
-    if (std::abs(to_u - u) + std::abs(to_v - v) < 1e-6f) break;
-    SurfaceSpot next = evaluate_spot(primitive, to_u, to_v, scratch);
-    if (glm::distance(next.P, target) > glm::distance(spot.P, target)) break;
-    u = to_u;
-    v = to_v;
-    spot = next;
-  }
-  return spot;
+SurfaceSpot in_camera(const Matrix4& to_camera, const SurfaceLattice& lattice, size_t k) {
+  return {transform_point(to_camera, lattice.P[k]), transform_vector(to_camera, lattice.dPdu[k]),
+          transform_vector(to_camera, lattice.dPdv[k])};
+}
+
+/// Whether a point of the surface is the one below or above where the ray met the faces: it may be off them,
+/// as they are off the surface, but not beside.
+bool is_near(const PrimitiveState& state, const SurfaceLattice& lattice, size_t k, Vec3 target,
+             float distance) {
+  const float most = kNearEnough * distance;
+  Vec3 off = transform_point(state.camera_to_object, target) - lattice.P[k], N = lattice.N[k];
+  float along = glm::dot(off, N), length = glm::dot(N, N);
+  Vec3 beside = transform_vector(state.object_to_camera, length > 0 ? off - N * (along / length) : off);
+  return glm::dot(beside, beside) <= most * most;
+}
+
+void copy_point(const SurfaceLattice& from, size_t i, SurfaceLattice& to, size_t k) {
+  to.P[k] = from.P[i];
+  to.dPdu[k] = from.dPdu[i];
+  to.dPdv[k] = from.dPdv[i];
+  to.N[k] = from.N[i];
 }
 
 /// A step from `at` within 0 to 1, in the direction there is more room in.
@@ -67,53 +68,110 @@ float step_inside(float at, float wanted) {
 
 } // namespace
 
-SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch) {
-  primitive.geometry->evaluate({&u, 1}, {&v, 1}, scratch);
-  const Matrix4& m = primitive.state->object_to_camera;
-  return {transform_point(m, scratch.P[0]),
-          transform_vector(m, scratch.dPdu[0]),
-          transform_vector(m, scratch.dPdv[0]),
-          {scratch.P[0], scratch.dPdu[0], scratch.dPdv[0], scratch.N[0]}};
-}
-
-Footprint footprint_on(const HitRay& ray, const SurfaceSpot& spot) {
-  Vec3 normal = glm::cross(spot.dPdu, spot.dPdv);
+Footprint footprint_on(const HitRays& rays, const HitRay& hit, const SurfaceSpot& spot) {
+  Vec3 normal = glm::cross(spot.dPdu, spot.dPdv), direction = rays.direction(hit);
   float length = glm::length(normal);
-  if (!ray.wide || !(length > 0)) return {};
+  if (!rays.wide() || !(length > 0)) return {};
   normal /= length;
-  float cosine = glm::dot(ray.direction, normal);
+  float cosine = glm::dot(direction, normal);
   if (std::abs(cosine) < kLeastCosine) cosine = std::copysign(kLeastCosine, cosine);
-  auto on_surface = [&](Vec3 origin, Vec3 direction) {
-    Vec3 d = origin + direction * ray.distance;
-    d -= ray.direction * (glm::dot(d, normal) / cosine);
+  auto on_surface = [&](Vec3 origin_change, Vec3 direction_change) {
+    Vec3 d = origin_change + direction_change * hit.distance;
+    d -= direction * (glm::dot(d, normal) / cosine);
     return nearest_combination(spot.dPdu, spot.dPdv, d);
   };
-  Vec2 x = on_surface(ray.origin_dx, ray.direction_dx), y = on_surface(ray.origin_dy, ray.direction_dy);
+  const slvm::RayBatch& b = rays.batch;
+  Vec2 x = on_surface(rays.at(b.origin_du, hit), rays.at(b.direction_du, hit)),
+       y = on_surface(rays.at(b.origin_dv, hit), rays.at(b.direction_dv, hit));
   return {x.x, x.y, y.x, y.y};
 }
 
-void HitGrid::find_spots(const Scene& scene, std::span<const HitRay> hits) {
+void HitGrid::find_runs(const Scene& scene, std::span<const HitRay> hits) {
   moved_.clear();
-  primitives_.clear();
-  spots_.clear();
-  for (const HitRay& hit : hits) {
+  runs_.clear();
+  for (size_t i = 0; i < hits.size(); ++i) {
+    const HitRay& hit = hits[i];
     const Primitive* p = &scene.primitives[hit.place.primitive];
-    if (hit.time > 0 && (!p->deformation.empty() || !p->state->motion.empty()))
-      p = &moved_.emplace_back(primitive_at(*p, hit.time));
-    float u = hit.place.u, v = hit.place.v;
-    Vec3 target = hit.origin + hit.direction * hit.distance;
+    bool moves = hit.time > 0 && (!p->deformation.empty() || !p->state->motion.empty());
+    if (i > 0 && hits[i - 1].place.primitive == hit.place.primitive &&
+        (!moves || hits[i - 1].time == hit.time)) {
+      ++runs_.back().count;
+      continue;
+    }
+    if (moves) p = &moved_.emplace_back(primitive_at(*p, hit.time));
+    runs_.push_back({p, i, 1, hit.place.displaced});
+  }
+}
+
+/// Places of a run's hits (row 0) or of their neighbours.
+UvPoints HitGrid::points(const Run& run, size_t row) const {
+  size_t first = row * hits_ + run.first;
+  return {std::span(u_).subspan(first, run.count), std::span(v_).subspan(first, run.count), true};
+}
+
+void HitGrid::find_spots(const Run& run, const HitRays& rays, std::span<const HitRay> hits) {
+  const PrimitiveState& state = *run.primitive->state;
+  run.primitive->geometry->evaluate(points(run, 0), scratch_);
+  open_.clear();
+  for (size_t i = 0; i < run.count; ++i) {
+    size_t k = run.first + i;
+    copy_point(scratch_, i, lattice_, k);
     // Where faces are displaced they tell nothing about the surface below.
-    spots_.push_back(hit.place.displaced ? evaluate_spot(*p, u, v, scratch_)
-                                         : settle(*p, target, kNearEnough * hit.distance, u, v, scratch_));
-    primitives_.push_back(p);
-    u_.push_back(u);
-    v_.push_back(v);
+    if (!run.displaced && !is_near(state, lattice_, k, rays.target(hits[k]), hits[k].distance))
+      open_.push_back(static_cast<uint32_t>(k));
+  }
+  if (!open_.empty()) settle(run, rays, hits);
+}
+
+/// Takes `open_` hits to the points of the surface that lie nearest to where their rays met the faces, which
+/// are a little off the surface, and their parameters off its.
+void HitGrid::settle(const Run& run, const HitRays& rays, std::span<const HitRay> hits) {
+  constexpr int kRounds = 6;
+  const Matrix4& m = run.primitive->state->object_to_camera;
+  for (int round = 0; round < kRounds && !open_.empty(); ++round) {
+    next_u_.clear();
+    next_v_.clear();
+    std::erase_if(open_, [&](uint32_t k) {
+      SurfaceSpot spot = in_camera(m, lattice_, k);
+      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, rays.target(hits[k]) - spot.P);
+      float longest = std::max(std::abs(step.x), std::abs(step.y));
+      if (!(longest < kInfinity)) return true;
+      if (longest > 0.5f) step *= 0.5f / longest;
+      float u = std::clamp(u_[k] + step.x, 0.0f, 1.0f), v = std::clamp(v_[k] + step.y, 0.0f, 1.0f);
+      if (std::abs(u - u_[k]) + std::abs(v - v_[k]) < 1e-6f) return true;
+      next_u_.push_back(u);
+      next_v_.push_back(v);
+      return false;
+    });
+    if (open_.empty()) return;
+    run.primitive->geometry->evaluate({next_u_, next_v_, true}, scratch_);
+    size_t kept = 0;
+    for (size_t i = 0; i < open_.size(); ++i) {
+      uint32_t k = open_[i];
+      Vec3 target = rays.target(hits[k]);
+      if (glm::distance(transform_point(m, scratch_.P[i]), target) >
+          glm::distance(transform_point(m, lattice_.P[k]), target))
+        continue;
+      u_[k] = next_u_[i];
+      v_[k] = next_v_[i];
+      copy_point(scratch_, i, lattice_, k);
+      if (!is_near(*run.primitive->state, lattice_, k, target, hits[k].distance)) open_[kept++] = k;
+    }
+    open_.resize(kept);
+  }
+}
+
+void HitGrid::evaluate_beside(const Run& run) {
+  for (size_t row : {1, 2}) {
+    run.primitive->geometry->evaluate(points(run, row), scratch_);
+    for (size_t i = 0; i < run.count; ++i)
+      copy_point(scratch_, i, lattice_, row * hits_ + run.first + i);
   }
 }
 
 /// The footprint as two sides of a parallelogram becomes steps along u and along v, and its sides in these
 /// steps.
-void HitGrid::take_footprints(std::span<const HitRay> hits) {
+void HitGrid::take_footprints(const HitRays& rays, std::span<const HitRay> hits) {
   size_t n = hits.size();
   for (auto& plane : footprint_)
     plane.resize(n);
@@ -121,37 +179,49 @@ void HitGrid::take_footprints(std::span<const HitRay> hits) {
   v_stretch_.resize(n);
   u_.resize(3 * n);
   v_.resize(3 * n);
-  for (size_t i = 0; i < n; ++i) {
-    Footprint f = footprint_on(hits[i], spots_[i]);
-    float along_u = std::sqrt(f.ux * f.ux + f.uy * f.uy), along_v = std::sqrt(f.vx * f.vx + f.vy * f.vy);
-    // A ray that has no width in a direction still has derivatives there.
-    float step_u = along_u > 1e-9f ? along_u : kLeastStep, step_v = along_v > 1e-9f ? along_v : kLeastStep;
-    float sides[4] = {f.ux / step_u, f.vx / step_v, f.uy / step_u, f.vy / step_v};
-    for (size_t c = 0; c < 4; ++c)
-      footprint_[c][i] = sides[c];
-    float du = step_inside(u_[i], step_u), dv = step_inside(v_[i], step_v);
-    u_[n + i] = u_[i] + du;
-    v_[n + i] = v_[i];
-    u_[2 * n + i] = u_[i];
-    v_[2 * n + i] = v_[i] + dv;
-    u_stretch_[i] = step_u / du;
-    v_stretch_[i] = step_v / dv;
-  }
+  for (const Run& run : runs_)
+    for (size_t i = run.first; i < run.first + run.count; ++i) {
+      Footprint f =
+          footprint_on(rays, hits[i], in_camera(run.primitive->state->object_to_camera, lattice_, i));
+      float along_u = std::sqrt(f.ux * f.ux + f.uy * f.uy), along_v = std::sqrt(f.vx * f.vx + f.vy * f.vy);
+      // A ray that has no width in a direction still has derivatives there.
+      float step_u = along_u > 1e-9f ? along_u : kLeastStep, step_v = along_v > 1e-9f ? along_v : kLeastStep;
+      float sides[4] = {f.ux / step_u, f.vx / step_v, f.uy / step_u, f.vy / step_v};
+      for (size_t c = 0; c < 4; ++c)
+        footprint_[c][i] = sides[c];
+      float du = step_inside(u_[i], step_u), dv = step_inside(v_[i], step_v);
+      u_[n + i] = u_[i] + du;
+      v_[n + i] = v_[i];
+      u_[2 * n + i] = u_[i];
+      v_[2 * n + i] = v_[i] + dv;
+      u_stretch_[i] = step_u / du;
+      v_stretch_[i] = step_v / dv;
+    }
 }
 
-void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside,
-                   const DiceContext& context) {
-  size_t n = hits.size();
-  u_.clear();
-  v_.clear();
-  find_spots(scene, hits);
-  grid.reset(static_cast<int>(n), beside ? 3 : 1);
-  if (beside) take_footprints(hits);
-  std::vector<SurfacePoints> parts;
-  parts.reserve(u_.size());
-  for (size_t k = 0; k < u_.size(); ++k)
-    parts.push_back({primitives_[k % n], {&u_[k], 1}, {&v_[k], 1}, k < n ? &spots_[k].object : nullptr});
-  dice_points(parts, context, grid);
+void HitGrid::dice(const Scene& scene, const HitRays& rays, std::span<const HitRay> hits, bool beside,
+                   const DiceContext& context, const VarFilter& is_read) {
+  const size_t n = hits.size(), rows = beside ? 3 : 1;
+  find_runs(scene, hits);
+  u_.resize(n);
+  v_.resize(n);
+  for (size_t i = 0; i < n; ++i) {
+    u_[i] = hits[i].place.u;
+    v_[i] = hits[i].place.v;
+  }
+  hits_ = n;
+  lattice_.resize(rows * n);
+  for (const Run& run : runs_)
+    find_spots(run, rays, hits);
+  grid.reset(static_cast<int>(n), static_cast<int>(rows));
+  if (beside) take_footprints(rays, hits);
+  parts_.clear();
+  for (const Run& run : runs_) {
+    if (beside) evaluate_beside(run);
+    for (size_t row = 0; row < rows; ++row)
+      parts_.push_back({run.primitive, points(run, row), row * n + run.first});
+  }
+  dice_points(parts_, lattice_, context, is_read, grid);
   // A primitive that was moved in time is this grid's only.
   grid.user = &scene.primitives[hits[0].place.primitive];
   grid.lattice = slvm::Lattice::kHits;
@@ -162,7 +232,7 @@ void HitGrid::dice(const Scene& scene, std::span<const HitRay> hits, bool beside
       grid.footprint[c] = footprint_[c].data();
   }
   set_steps(n);
-  set_rays(hits);
+  set_rays(rays, hits);
 }
 
 /// Brings the neighbours, which were evaluated at another distance, to where they belong.
@@ -197,39 +267,43 @@ void HitGrid::set_steps(size_t n) {
   }
 }
 
-void HitGrid::aim(size_t lane) {
+/// I, from where each point's ray starts.
+void HitGrid::aim() {
+  const size_t pitch = grid.pitch();
   const float* P = grid.variable(Global::kP).data;
-  set_point(grid.varying(Global::kI), grid.pitch(), lane,
-            plane_point(P, grid.pitch(), lane) - origins_[lane]);
+  float* I = grid.varying(Global::kI);
+  for (size_t k = 0; k < grid.points(); ++k)
+    set_point(I, pitch, k, plane_point(P, pitch, k) - origins_[k]);
 }
 
 /// I, E and weights. A neighbour has the origin of the ray that would hit it.
-void HitGrid::set_rays(std::span<const HitRay> hits) {
+void HitGrid::set_rays(const HitRays& rays, std::span<const HitRay> hits) {
   size_t n = hits.size();
   origins_.resize(grid.points());
-  for (size_t i = 0; i < n; ++i) {
+  for (size_t i = 0; i < n; ++i)
+    origins_[i] = rays.origin(hits[i]);
+  for (size_t i = 0; i < n && grid.derivatives; ++i) {
     const HitRay& hit = hits[i];
-    origins_[i] = hit.origin;
-    if (!grid.derivatives) continue;
     float ux = footprint_[0][i], vx = footprint_[1][i], uy = footprint_[2][i], vy = footprint_[3][i];
     float determinant = ux * vy - uy * vx;
-    bool usable = std::abs(determinant) > 1e-6f;
+    bool usable = rays.wide() && std::abs(determinant) > 1e-6f;
     // One step along u is so many along x and y, by the inverse of the footprint.
     auto origin = [&](float x, float y) {
-      return usable ? hit.origin + (hit.origin_dx * x + hit.origin_dy * y) / determinant : hit.origin;
+      if (!usable) return origins_[i];
+      Vec3 dx = rays.at(rays.batch.origin_du, hit), dy = rays.at(rays.batch.origin_dv, hit);
+      return origins_[i] + (dx * x + dy * y) / determinant;
     };
     origins_[n + i] = origin(vy, -vx);
     origins_[2 * n + i] = origin(-uy, ux);
   }
-  for (size_t k = 0; k < grid.points(); ++k)
-    aim(k);
-  float eye[3] = {hits[0].origin.x, hits[0].origin.y, hits[0].origin.z};
+  aim();
+  float eye[3] = {origins_[0].x, origins_[0].y, origins_[0].z};
   grid.set_uniform(Global::kE, eye);
-  for (int c = 0; c < 3; ++c) {
+  for (int c = 0; c < 3 && !rays.weights.empty(); ++c) {
     auto& plane = weight_[static_cast<size_t>(c)];
     plane.resize(n);
     for (size_t i = 0; i < n; ++i)
-      plane[i] = hits[i].weight[c];
+      plane[i] = rays.weights[hits[i].ray][c];
     grid.ray.weight[c] = plane.data();
   }
 }
@@ -250,9 +324,8 @@ void HitGrid::after_displacement(bool moved) {
         *Ng = grid.varying(Global::kNg);
   const slvm::Planes &du = grid.variable(Global::kdu), &dv = grid.variable(Global::kdv);
   float sign = grid.flip_normals ? -1.0f : 1.0f;
-  for (size_t k = 0; k < grid.points(); ++k) {
-    aim(k);
-    if (!grid.derivatives) continue;
+  aim();
+  for (size_t k = 0; k < grid.points() && grid.derivatives; ++k) {
     size_t i = k % n;
     Vec3 at = plane_point(P, pitch, i);
     Vec3 along_u = (plane_point(P, pitch, n + i) - at) / du.data[i];

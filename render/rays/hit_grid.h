@@ -14,53 +14,79 @@ namespace render {
 /// A ray that hit something.
 struct HitRay {
   uint32_t ray = 0;   ///< in its batch
+  uint32_t slot = 0;  ///< of its values in the outputs
   uint32_t point = 0; ///< of the grid it comes from
   SurfacePlace place;
   float distance = 0, time = 0;
-  Vec3 origin, direction;
-  bool wide = false; ///< the following say something
-  Vec3 origin_dx{0.0f}, origin_dy{0.0f}, direction_dx{0.0f}, direction_dy{0.0f};
-  Color weight{1.0f};
+};
+
+/// The rays of a batch, one by one.
+struct HitRays {
+  const slvm::RayBatch& batch;
+  std::span<const Color> weights; ///< parts of the picture that rays make; empty: all of it
+
+  /// They have a width: what origin and direction change by to the neighbours is known.
+  bool wide() const { return batch.origin_du[0] && batch.direction_du[0]; }
+  Vec3 origin(const HitRay& h) const { return at(batch.origin, h); }
+  Vec3 direction(const HitRay& h) const { return at(batch.direction, h); }
+  Vec3 target(const HitRay& h) const { return origin(h) + direction(h) * h.distance; }
+  static Vec3 at(const float* const (&planes)[3], const HitRay& h) {
+    return {planes[0][h.ray], planes[1][h.ray], planes[2][h.ray]};
+  }
 };
 
 /// Where a surface is at a point, in camera space, with derivatives by its parameter square.
 struct SurfaceSpot {
   Vec3 P, dPdu, dPdv;
-  SurfaceValue object; ///< the same in object space
 };
-SurfaceSpot evaluate_spot(const Primitive& primitive, float u, float v, SurfaceLattice& scratch);
 
 /// The footprint of a ray on a surface in units of its parameters: what u and v change by to the neighbouring
 /// rays.
 struct Footprint {
   float ux = 0, vx = 0, uy = 0, vy = 0;
 };
-Footprint footprint_on(const HitRay& ray, const SurfaceSpot& spot);
+Footprint footprint_on(const HitRays& rays, const HitRay& hit, const SurfaceSpot& spot);
 
 class HitGrid {
 public:
   slvm::Grid grid{1, 1};
 
-  /// Fills the grid with hits whose primitives can be diced together (dice_points). `beside`: with
-  /// neighbours.
-  void dice(const Scene& scene, std::span<const HitRay> hits, bool beside, const DiceContext& context);
+  /// Fills the grid with hits whose primitives can be diced together (dice_points); those of one primitive
+  /// follow each other, so that its geometry is asked once for all. `beside`: with neighbours. `is_read`: the
+  /// primitive variables somebody wants; empty: all.
+  void dice(const Scene& scene, const HitRays& rays, std::span<const HitRay> hits, bool beside,
+            const DiceContext& context, const VarFilter& is_read = {});
   /// To be called around a displacement shader. Afterwards points are back where they were if rays do not see
   /// displacements: the shader then has changed N only.
   void before_displacement();
   void after_displacement(bool moved);
 
 private:
-  void find_spots(const Scene& scene, std::span<const HitRay> hits);
-  void take_footprints(std::span<const HitRay> hits);
+  /// Hits of one primitive, at one time if it moves.
+  struct Run {
+    const Primitive* primitive;
+    size_t first, count;
+    bool displaced;
+  };
+  void find_runs(const Scene& scene, std::span<const HitRay> hits);
+  void find_spots(const Run& run, const HitRays& rays, std::span<const HitRay> hits);
+  void settle(const Run& run, const HitRays& rays, std::span<const HitRay> hits);
+  void evaluate_beside(const Run& run);
+  UvPoints points(const Run& run, size_t row) const;
+  void take_footprints(const HitRays& rays, std::span<const HitRay> hits);
   void stretch(size_t hits);
   void set_steps(size_t hits);
-  void set_rays(std::span<const HitRay> hits);
-  void aim(size_t lane);
+  void set_rays(const HitRays& rays, std::span<const HitRay> hits);
+  void aim();
 
   std::deque<Primitive> moved_; ///< primitives as they are at the time of a ray
-  std::vector<const Primitive*> primitives_;
-  std::vector<SurfaceSpot> spots_;
-  std::vector<float> u_, v_;                 ///< of all points
+  std::vector<Run> runs_;
+  std::vector<SurfacePoints> parts_;
+  size_t hits_ = 0;
+  std::vector<float> u_, v_;   ///< of all points
+  SurfaceLattice lattice_;     ///< of all points
+  std::vector<uint32_t> open_; ///< hits that are not where their rays are yet, and where to look next:
+  std::vector<float> next_u_, next_v_;
   std::vector<float> u_stretch_, v_stretch_; ///< of a hit: the wanted step by the one that is evaluated
   std::vector<float> footprint_[4], weight_[3];
   std::vector<Vec3> origins_; ///< of all points

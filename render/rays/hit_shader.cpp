@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <unordered_map>
 
 namespace render {
 
@@ -84,22 +85,23 @@ bool is_from(std::span<const slvm::RayOutput> outputs, std::initializer_list<Fro
   });
 }
 
-/// Whether results of a shader can depend on neighbouring points.
-bool differentiates(const slvm::Instance* instance) {
-  if (!instance) return false;
-  const slvm::Facts& f = instance->shader().program().facts;
-  if (f.derivatives || f.textures) return true;
-  // Rays that go on have footprints, too.
-  return f.rays && std::any_of(f.shadeops.begin(), f.shadeops.end(), [](const std::string& s) {
-           return s == "trace" || s == "gather" || s == "traverse";
-         });
+/// Whether results of a shader can depend on neighbouring points, with the values its parameters have.
+bool differentiates(const slvm::Instance& instance) {
+  const slvm::Program& p = instance.program();
+  return std::any_of(p.imports.begin(), p.imports.end(), [&](slvm::ShadeopId id) {
+    const slvm::ShadeopInfo& info = p.plugins.info(id);
+    if (!(info.flags & slvm::kDerivative)) return false;
+    // Rays that go on have footprints, too.
+    return !(info.flags & slvm::kRays) || info.name == "trace" || info.name == "gather" ||
+           info.name == "traverse";
+  });
 }
 
-bool uses_eye(const slvm::Instance* instance) {
-  if (!instance) return false;
-  const auto& slots = instance->program().slots;
+/// Whether a shader reads a predefined variable (or else a parameter).
+bool reads(const slvm::Instance& instance, std::string_view name, bool parameter) {
+  const auto& slots = instance.program().slots;
   return std::any_of(slots.begin(), slots.end(),
-                     [](const slvm::Slot& s) { return !s.parameter && s.name == "E"; });
+                     [&](const slvm::Slot& s) { return s.parameter == parameter && s.name == name; });
 }
 
 bool fits(const slvm::RayOutput& out, slvm::Type type, uint32_t elements) {
@@ -107,14 +109,20 @@ bool fits(const slvm::RayOutput& out, slvm::Type type, uint32_t elements) {
   return same && out.elements == elements;
 }
 
-void store(const slvm::RayOutput& out, const slvm::Planes* from, std::span<const HitRay> hits) {
+/// Stores values of hits at their rays. `lanes`: only of these hits; empty: of all.
+void store(const slvm::RayOutput& out, const slvm::Planes* from, std::span<const HitRay> hits,
+           std::span<const uint32_t> lanes) {
   if (!from || !from->data || !fits(out, from->type, from->elements)) return;
   size_t planes = static_cast<size_t>(slvm::components(out.type)) * (out.elements ? out.elements : 1);
-  for (size_t i = 0; i < hits.size(); ++i) {
+  auto one = [&](size_t i) {
     for (size_t c = 0; c < planes; ++c)
-      out.data[c * out.pitch + hits[i].ray] = from->get(c, i);
-    if (out.found) out.found[hits[i].ray] = 1;
-  }
+      out.data[c * out.pitch + hits[i].slot] = from->get(c, i);
+    if (out.found) out.found[hits[i].slot] = 1;
+  };
+  for (uint32_t i : lanes)
+    one(i);
+  for (size_t i = 0; i < hits.size() && lanes.empty(); ++i)
+    one(i);
 }
 
 } // namespace
@@ -124,6 +132,7 @@ struct HitShader::Worker {
   Worker(const slvm::Machine& machine, slvm::RendererServices& services) : context(machine, services) {}
   slvm::ShadingContext context;
   HitGrid hits;
+  HitVolumes volumes;
   slvm::Grid lattice{2, 2};
 };
 
@@ -155,40 +164,106 @@ private:
 
 /// Which shaders have to run for the outputs.
 struct HitShader::Demand {
-  bool displacement, surface, atmosphere;
+  bool displacement, surface, volumes;
+  bool attributes; ///< those of the objects themselves
 
   Demand(std::span<const slvm::RayOutput> outputs, bool shades) {
-    atmosphere = shades && is_from(outputs, {From::kShaded, From::kVolume, From::kAtmosphere});
-    surface = shades && (atmosphere || is_from(outputs, {From::kSurface}));
+    volumes = shades && is_from(outputs, {From::kShaded, From::kVolume, From::kAtmosphere, From::kInterior,
+                                          From::kExterior});
+    surface = shades && (volumes || is_from(outputs, {From::kSurface}));
     displacement = surface || (shades && is_from(outputs, {From::kDisplacement}));
+    attributes = is_from(outputs, {From::kAttribute});
+  }
+};
+
+/// What is the same for the hits of a batch that can be diced together.
+struct HitShader::Work {
+  const Primitive* primitive = nullptr;
+  slvm::ShaderSet set; ///< those that run
+  std::vector<const slvm::Instance*> volumes;
+  bool plain = false;       ///< no shader runs: the look of the primitive
+  bool beside = false;      ///< somebody differentiates
+  bool done_beside = false; ///< nobody differentiates what the surface shader leaves behind
+  bool apart = false;       ///< E is read: hits of rays from different places cannot be shaded together
+  VarFilter is_read;
+
+  template <class F> bool any_shader(F&& f) const {
+    for (const slvm::Instance* shader : {set.displacement, set.surface})
+      if (shader && f(*shader)) return true;
+    return std::any_of(volumes.begin(), volumes.end(), [&](const slvm::Instance* v) { return f(*v); });
   }
 };
 
 /// Numbers of groups by what makes them.
 struct HitShader::Groups {
   struct Key {
-    const Attributes* attributes;
-    std::array<float, 16> object;
+    /// Shaders and lights; or, where they may ask for more, whose attributes and which object space these
+    /// are.
+    std::vector<const void*> shading;
+    std::array<float, 16> object{};
+    std::array<float, 8> texture_coordinates;
+    bool flipped;
+    RayAttributes rays;
     std::string variables;
     auto operator<=>(const Key&) const = default;
   };
   std::map<Key, uint32_t> numbers;
 
-  static std::string variables_of(const Primitive& p) {
-    std::string out;
-    for (const PatchVar& var : p.vars) {
-      out += var.name;
-      out += static_cast<char>('a' + static_cast<int>(var.type));
-      out += std::to_string(var.elements);
-      out += static_cast<char>('0' + static_cast<int>(var.interpolation));
-      if (var.interpolation != Interpolation::kConstant || replaced_variable(var) != Global::kCount) continue;
-      out.append(reinterpret_cast<const char*>(var.values.data()), var.values.size() * sizeof(float));
-      for (const std::string& s : var.strings)
-        out += s + '\0';
-    }
-    return out;
-  }
+  static Key key_of(const Primitive& p, const BoundAttributes& bound);
+  static std::string variables_of(const Primitive& p);
 };
+
+namespace {
+
+/// Whether a shader can tell one object from another by more than what its points are given.
+bool looks_at_object(const slvm::Instance* instance) {
+  if (!instance) return false;
+  const slvm::Program& p = instance->program();
+  auto has = [](const auto& list, auto&& what) { return std::any_of(list.begin(), list.end(), what); };
+  return has(p.imports,
+             [&](slvm::ShadeopId id) {
+               return p.plugins.find(id) || p.plugins.info(id).name == "attribute";
+             }) ||
+         has(p.strings, [](const std::string& s) { return s == "object"; }) ||
+         has(p.slots, [](const slvm::Slot& s) { return s.type == slvm::Type::kString; });
+}
+
+} // namespace
+
+HitShader::Groups::Key HitShader::Groups::key_of(const Primitive& p, const BoundAttributes& bound) {
+  const Attributes& a = p.attributes();
+  Key key;
+  const slvm::ShaderSet& set = bound.shaders;
+  std::vector<const slvm::Instance*> all{set.displacement, set.surface, set.atmosphere, set.interior,
+                                         set.exterior};
+  all.insert(all.end(), bound.lights.begin(), bound.lights.end());
+  if (!a.scoped_spaces.empty() || std::any_of(all.begin(), all.end(), looks_at_object)) {
+    key.shading = {&a};
+    key.object = p.state->object_to_camera.m;
+  } else {
+    key.shading.assign(all.begin(), all.end());
+  }
+  key.texture_coordinates = a.texture_coordinates;
+  key.flipped = a.flips_normals(p.state->mirrored);
+  key.rays = a.rays;
+  key.variables = variables_of(p);
+  return key;
+}
+
+std::string HitShader::Groups::variables_of(const Primitive& p) {
+  std::string out;
+  for (const PatchVar& var : p.vars) {
+    out += var.name;
+    out += static_cast<char>('a' + static_cast<int>(var.type));
+    out += std::to_string(var.elements);
+    out += static_cast<char>('0' + static_cast<int>(var.interpolation));
+    if (var.interpolation != Interpolation::kConstant || replaced_variable(var) != Global::kCount) continue;
+    out.append(reinterpret_cast<const char*>(var.values.data()), var.values.size() * sizeof(float));
+    for (const std::string& s : var.strings)
+      out += s + '\0';
+  }
+  return out;
+}
 
 HitShader::HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
                      const BoundShaders& shaders, slvm::RendererServices& services)
@@ -230,7 +305,7 @@ uint32_t HitShader::group_of(uint32_t primitive) {
   uint32_t& known = group_[primitive];
   if (known) return known;
   const Primitive& p = scene_.primitives[primitive];
-  Groups::Key key{&p.attributes(), p.state->object_to_camera.m, Groups::variables_of(p)};
+  Groups::Key key = Groups::key_of(p, *shaders_.find(&p.attributes()));
   auto [it, is_new] = groups_->numbers.try_emplace(std::move(key), 0);
   // The first primitive of the group: a number that does not depend on what was hit first is not needed, as
   // the order of groups changes no result; that all points of a grid are of one group does.
@@ -238,33 +313,47 @@ uint32_t HitShader::group_of(uint32_t primitive) {
   return known = it->second;
 }
 
-/// By group, then primitive, then ray. Groups are in the order of their first hits here, whatever their
-/// numbers.
+/// By group, then primitive, then ray; groups and primitives in the order of their first hits here, whatever
+/// their numbers.
 void HitShader::sort(std::vector<HitRay>& hits) {
-  struct Key {
-    uint32_t order, primitive, index;
-    auto operator<=>(const Key&) const = default;
+  struct Bucket { // hits of one primitive
+    uint32_t group, first = 0, count = 0;
   };
-  std::vector<Key> keys(hits.size());
+  std::vector<Bucket> buckets;
+  std::vector<uint32_t> bucket_of(hits.size());
   {
-    std::map<uint32_t, uint32_t> orders; // of groups
-    uint32_t group = 0, order = 0;
+    std::unordered_map<uint32_t, uint32_t> of_primitive;
+    uint32_t last = 0, bucket = 0;
     std::lock_guard lock(groups_mutex_);
-    for (uint32_t i = 0; i < hits.size(); ++i) {
-      uint32_t primitive = hits[i].place.primitive;
-      if (uint32_t g = group_of(primitive); g != group) {
-        group = g;
-        order = orders.try_emplace(g, static_cast<uint32_t>(orders.size())).first->second;
+    for (size_t i = 0; i < hits.size(); ++i) {
+      const uint32_t primitive = hits[i].place.primitive;
+      if (i == 0 || primitive != last) {
+        last = primitive;
+        auto [it, is_new] = of_primitive.try_emplace(primitive, static_cast<uint32_t>(buckets.size()));
+        bucket = it->second;
+        if (is_new) buckets.push_back({group_of(primitive)});
       }
-      keys[i] = {order, primitive, i};
+      bucket_of[i] = bucket;
+      ++buckets[bucket].count;
     }
   }
-  if (std::is_sorted(keys.begin(), keys.end())) return;
-  std::sort(keys.begin(), keys.end());
-  std::vector<HitRay> sorted;
-  sorted.reserve(hits.size());
-  for (const Key& key : keys)
-    sorted.push_back(hits[key.index]);
+  if (buckets.size() == 1) return;
+  std::vector<std::vector<uint32_t>> of_group;
+  std::unordered_map<uint32_t, size_t> number_of_group;
+  for (uint32_t k = 0; k < buckets.size(); ++k) {
+    size_t number = number_of_group.try_emplace(buckets[k].group, of_group.size()).first->second;
+    if (number == of_group.size()) of_group.emplace_back();
+    of_group[number].push_back(k);
+  }
+  uint32_t place = 0;
+  for (const auto& group : of_group)
+    for (uint32_t k : group) {
+      buckets[k].first = place;
+      place += buckets[k].count;
+    }
+  std::vector<HitRay> sorted(hits.size());
+  for (size_t i = 0; i < hits.size(); ++i)
+    sorted[buckets[bucket_of[i]].first++] = hits[i];
   hits = std::move(sorted);
 }
 
@@ -274,17 +363,46 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
   sort(hits);
   Demand demand(outputs, batch.shades);
   WorkerLease lease(*this, false);
+  Work work;
+  uint32_t last = 0;
   auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
-    const slvm::ShaderSet& set = set_of(scene_.primitives[hits[first].place.primitive]);
-    // E is uniform: where a shader looks at it, hits of rays from different places cannot be shaded together.
-    bool apart = demand.displacement &&
-                 (uses_eye(set.displacement) || uses_eye(set.surface) || uses_eye(set.atmosphere));
-    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == group(first); ++end)
-      if (apart && hits[end].origin != hits[first].origin) break;
-    shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand,
+    if (group(first) != last) {
+      last = group(first);
+      work = prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand);
+    }
+    auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
+    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == last; ++end) {
+      if (work.apart && batch.rays.origin(hits[end]) != batch.rays.origin(hits[first])) break;
+      if (demand.attributes && state(hits[end]) != state(hits[first])) break;
+    }
+    shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand, work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }
+}
+
+HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
+                                   std::span<const slvm::RayOutput> outputs, const Demand& demand) const {
+  Work w;
+  w.primitive = &primitive;
+  const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
+  w.set = bound.shaders;
+  w.plain = is_primitive_mode(primitive, batch);
+  if (!demand.displacement || w.plain) w.set.displacement = nullptr;
+  if (!demand.surface || w.plain) w.set.surface = nullptr;
+  if (demand.volumes && !w.plain) w.volumes = possible_volumes(batch.from.shaders, w.set);
+  const bool lights = w.set.surface && std::any_of(bound.lights.begin(), bound.lights.end(),
+                                                   [](auto* light) { return differentiates(*light); });
+  w.beside = w.any_shader(differentiates) || lights;
+  w.done_beside = !lights && std::none_of(w.volumes.begin(), w.volumes.end(),
+                                          [](auto* volume) { return differentiates(*volume); });
+  w.apart = w.any_shader([](const slvm::Instance& shader) { return reads(shader, "E", false); });
+  w.is_read = [outputs, shaders = w](const std::string& name) {
+    return shaders.any_shader([&](const slvm::Instance& s) { return reads(s, name, true); }) ||
+           std::any_of(outputs.begin(), outputs.end(),
+                       [&](const slvm::RayOutput& out) { return out.name == name; });
+  };
+  return w;
 }
 
 bool HitShader::is_primitive_mode(const Primitive& p, const HitBatch& batch) const {
@@ -311,14 +429,15 @@ void look_like_primitive(slvm::Grid& grid) {
 /// Takes the outputs of one kind from a grid: parameters of the shader, predefined variables, primitive
 /// variables.
 void take(const slvm::ShadingContext& context, const slvm::Grid& grid, const slvm::Instance* shader,
-          From from, std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs) {
+          From from, std::span<const HitRay> hits, std::span<const slvm::RayOutput> outputs,
+          std::span<const uint32_t> lanes = {}) {
   for (const slvm::RayOutput& out : outputs) {
     if (out.from != from) continue;
     const slvm::Planes* planes = shader ? context.output(*shader, out.name) : nullptr;
     if (!planes)
       if (Global g = slvm::find_global(out.name); g != Global::kCount) planes = &grid.variable(g);
     if (!planes || !planes->data) planes = grid.primvar(std::string(out.name));
-    store(out, planes, hits);
+    store(out, planes, hits, lanes);
   }
 }
 
@@ -336,26 +455,18 @@ void HitShader::take_attributes(const HitBatch& batch, const slvm::Grid& grid, c
     if (value.numbers.size() != planes || !fits(out, value.type, value.elements)) continue;
     for (const HitRay& hit : hits) {
       for (size_t c = 0; c < planes; ++c)
-        out.data[c * out.pitch + hit.ray] = value.numbers[c];
-      if (out.found) out.found[hit.ray] = 1;
+        out.data[c * out.pitch + hit.slot] = value.numbers[c];
+      if (out.found) out.found[hit.slot] = 1;
     }
   }
 }
 
 void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
-                           std::span<const slvm::RayOutput> outputs, const Demand& demand, uint64_t id) {
-  const Primitive& primitive = scene_.primitives[hits[0].place.primitive];
-  slvm::ShaderSet set = set_of(primitive);
-  bool plain = is_primitive_mode(primitive, batch), surface = demand.surface && !plain;
-  if (!demand.displacement || plain) set.displacement = nullptr;
-  if (!surface) set.surface = nullptr;
-  if (!demand.atmosphere || plain) set.atmosphere = nullptr;
-  bool beside =
-      differentiates(set.displacement) || differentiates(set.surface) || differentiates(set.atmosphere);
-  for (const slvm::Instance* light : shaders_.find(&primitive.attributes())->lights)
-    beside = beside || (set.surface && differentiates(light));
+                           std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
+                           uint64_t id) {
+  const slvm::ShaderSet& set = work.set;
   slvm::Grid& grid = worker.hits.grid;
-  worker.hits.dice(scene_, hits, beside, dice_);
+  worker.hits.dice(scene_, batch.rays, hits, work.beside, dice_, work.is_read);
   const float* weight[3] = {grid.ray.weight[0], grid.ray.weight[1], grid.ray.weight[2]};
   grid.ray = batch.facts;
   std::copy_n(weight, 3, grid.ray.weight);
@@ -368,22 +479,29 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
   if (set.displacement) {
     worker.hits.before_displacement();
     context.displace(set, grid);
-    worker.hits.after_displacement(primitive.attributes().rays.displacements);
+    worker.hits.after_displacement(work.primitive->attributes().rays.displacements);
     take(context, grid, set.displacement, From::kDisplacement, hits, outputs);
   }
   if (!demand.surface) return;
-  if (plain)
+  grid.neighbours_end = work.done_beside;
+  context.shade_surface(set, grid);
+  if (work.plain)
     look_like_primitive(grid);
   else if (!set.surface)
     shade_by_default(grid);
-  if (set.surface) context.shade_surface(set, grid);
   take(context, grid, set.surface, From::kSurface, hits, outputs);
-  if (set.surface) context.shade_atmosphere(); // or what ends the grid
-  if (set.atmosphere) {
-    if (!set.surface) context.run(*set.atmosphere, grid);
-    take(context, grid, set.atmosphere, From::kVolume, hits, outputs);
-    take(context, grid, set.atmosphere, From::kAtmosphere, hits, outputs);
+  if (!work.volumes.empty()) {
+    worker.volumes.find(batch.from, set, grid, batch.rays, hits);
+    worker.volumes.shade(context, grid, [&](const slvm::Instance& v, std::span<const uint32_t> lanes) {
+      take(context, grid, &v, From::kVolume, hits, outputs, lanes);
+      take(context, grid, &v,
+           &v == set.atmosphere                                      ? From::kAtmosphere
+           : &v == set.interior || &v == batch.from.shaders.interior ? From::kInterior
+                                                                     : From::kExterior,
+           hits, outputs, lanes);
+    });
   }
+  context.end_grid();
   take(context, grid, nullptr, From::kShaded, hits, outputs);
 }
 

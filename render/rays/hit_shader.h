@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/rays/hit_grid.h"
+#include "render/rays/hit_volumes.h"
 #include "render/shading/bound_shaders.h"
 #include "render/shading/services.h"
 
@@ -15,6 +16,7 @@ namespace render {
 /// What is the same for all hits of a batch.
 struct HitBatch {
   const slvm::ShadingState& from; ///< whose rays they are
+  HitRays rays;
   slvm::RayKind kind = slvm::RayKind::kSpecular;
   slvm::HitMode mode = slvm::HitMode::kDefault;
   bool shades = true;   ///< false: shaders do not run
@@ -46,10 +48,14 @@ private:
   struct Worker;
   class WorkerLease;
   struct Demand;
+  struct Work;
   uint32_t group_of(uint32_t primitive);
   void sort(std::vector<HitRay>& hits);
   void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
-                  std::span<const slvm::RayOutput> outputs, const Demand& demand, uint64_t id);
+                  std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
+                  uint64_t id);
+  Work prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
+               const Demand& demand) const;
   bool is_primitive_mode(const Primitive&, const HitBatch& batch) const;
   const slvm::ShaderSet& set_of(const Primitive&) const;
   void take_attributes(const HitBatch& batch, const slvm::Grid& grid, const slvm::ShaderSet& set,

@@ -67,31 +67,40 @@ void RayGeometry::make(Item& item) {
   item.made.store(true, std::memory_order_release);
 }
 
+/// The number of the primitive in the item whose face it is.
+size_t RayGeometry::part_of(const Item& item, uint32_t face) const {
+  if (item.primitives.size() == 1) return 0;
+  auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), face);
+  return static_cast<size_t>(after - item.first_face.begin()) - 1;
+}
+
 SurfacePlace RayGeometry::place(const RayHit& hit) const {
   const Item& item = *items_[hit.item];
-  auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), hit.face);
-  auto i = static_cast<size_t>(after - item.first_face.begin()) - 1;
+  size_t i = part_of(item, hit.face);
   FaceRate rate = item.rates[i];
-  auto face = static_cast<int>(hit.face - item.first_face[i]);
+  const uint32_t face = hit.face - item.first_face[i], row = face / static_cast<uint32_t>(rate.u);
   SurfacePlace out;
   out.primitive = item.primitives[i];
-  out.u = (static_cast<float>(face % rate.u) + hit.u) / static_cast<float>(rate.u);
-  out.v = (static_cast<float>(face / rate.u) + hit.v) / static_cast<float>(rate.v);
+  out.u =
+      (static_cast<float>(face - row * static_cast<uint32_t>(rate.u)) + hit.u) / static_cast<float>(rate.u);
+  out.v = (static_cast<float>(row) + hit.v) / static_cast<float>(rate.v);
   out.u = std::clamp(out.u, 0.0f, 1.0f);
   out.v = std::clamp(out.v, 0.0f, 1.0f);
-  out.displaced = is_displaced_for_rays(scene_.primitives[out.primitive], displacer_);
+  out.displaced = item.displaced[i];
   return out;
 }
 
 /// The patches of one request are one surface.
 bool RayGeometry::same_surface(uint32_t index, uint32_t face, uint32_t other) const {
   const Item& item = *items_[index];
-  auto state = [&](uint32_t f) {
-    auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), f);
-    return scene_.primitives[item.primitives[static_cast<size_t>(after - item.first_face.begin()) - 1]]
-        .state.get();
-  };
+  auto state = [&](uint32_t f) { return scene_.primitives[item.primitives[part_of(item, f)]].state.get(); };
   return state(face) == state(other);
+}
+
+RayOpacity RayGeometry::shadow(const RayHit& hit) const {
+  const Item& item = *items_[hit.item];
+  if (!item.solid) return item.traits.shadow;
+  return scene_.primitives[item.primitives[part_of(item, hit.face)]].attributes().rays.shadow();
 }
 
 /// A subset names groups that are seen, or, with "-", groups that are not; with only the latter all others

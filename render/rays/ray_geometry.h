@@ -32,6 +32,13 @@ struct RayGeometrySettings {
   size_t item_faces = size_t{1} << 18; ///< gathered in one item, about
 };
 
+/// A solid that the primitives of an item bound.
+struct RaySolid {
+  std::shared_ptr<const SolidTree> tree;
+  std::vector<SolidTree::NodeIndex> node; ///< of each primitive of the item
+  std::vector<Box> bounds;                ///< of each node of the tree that is a primitive
+};
+
 /// A hit on its primitive.
 struct SurfacePlace {
   uint32_t primitive = 0; ///< of the scene
@@ -51,6 +58,10 @@ public:
   size_t items() const { return items_.size(); }
   SurfacePlace place(const RayHit& hit) const;
   bool same_surface(uint32_t item, uint32_t face, uint32_t other) const override;
+  std::vector<uint32_t> bounding(uint32_t item, Vec3 origin,
+                                 std::span<const RayCrossing> crossings) const override;
+  /// What shadows of a surface are like.
+  RayOpacity shadow(const RayHit& hit) const;
 
   /// One an item: whether rays of a kind that see only `subset` (RayOptions) see it. Valid as long as this.
   const uint8_t* seen(slvm::RayKind kind, std::string_view subset);
@@ -70,9 +81,11 @@ private:
     std::vector<uint32_t> primitives;
     std::vector<uint32_t> first_face; ///< of each primitive, and the end
     std::vector<FaceRate> rates;
+    std::vector<uint8_t> displaced; ///< of each primitive: its faces are those of the displaced surface
     Box bounds;
-    uint32_t model = 0;           ///< the item whose faces these are: itself, or the first instance
-    Matrix4 to_camera, to_object; ///< of instances
+    std::unique_ptr<const RaySolid> solid; ///< that the primitives bound; null: none
+    uint32_t model = 0;                    ///< the item whose faces these are: itself, or the first instance
+    Matrix4 to_camera, to_object;          ///< of instances
     bool placed = false;
     std::mutex making;
     std::unique_ptr<const FaceScene> faces;
@@ -81,6 +94,7 @@ private:
     std::atomic<uint64_t> used{0};
   };
   class Gatherer;
+  size_t part_of(const Item& item, uint32_t face) const;
 
   const FaceScene* faces(uint32_t item) override;
   void make(Item& item);

@@ -4,6 +4,7 @@
 #include "render/hider/random.h"
 #include "render/rays/environment_distribution.h"
 #include "render/rays/hemisphere_cache.h"
+#include "render/rays/hemisphere_records.h"
 #include "render/rays/shooter.h"
 
 #include <cmath>
@@ -35,7 +36,8 @@ constexpr std::string_view type_of(slvm::RayKind kind) {
 RayTracer::RayTracer(const Scene& scene, const slvm::Machine& machine, const BoundShaders& shaders,
                      slvm::RendererServices& services)
     : scene_(scene), services_(services), camera_(scene.options),
-      hits_(scene, camera_, machine, shaders, services), cache_(std::make_unique<HemisphereCache>()) {
+      hits_(scene, camera_, machine, shaders, services), cache_(std::make_unique<HemisphereCache>()),
+      records_(std::make_unique<HemisphereRecords>()) {
   min_weight_ = number_option(scene.options, "trace:minweight", 0);
   max_depth_ = number_option(scene.options, "trace:maxdepth", 10);
   float kilobytes = number_option(scene.options, "limits:geocachememory", 1 << 20);
@@ -103,23 +105,18 @@ RaySegment RayTracer::segment(const Shooter& shooter, const slvm::RayOptions& op
   return out;
 }
 
-HitRay RayTracer::hit_ray(const Shooter& shooter, const slvm::RayBatch& batch, size_t ray,
-                          const RaySegment& segment, const RayHit& hit) {
-  HitRay out;
-  out.ray = static_cast<uint32_t>(ray);
-  out.point = shooter.point(batch, ray);
-  out.place = geometry_->place(hit);
-  out.distance = hit.distance;
-  out.time = segment.time;
-  out.origin = segment.origin;
-  out.direction = segment.direction;
-  out.weight = shooter.weight(batch.weight, ray, out.point);
-  if (!batch.origin_du[0] || !batch.direction_du[0]) return out;
-  out.wide = true;
-  out.origin_dx = point_of(batch.origin_du, ray);
-  out.origin_dy = point_of(batch.origin_dv, ray);
-  out.direction_dx = point_of(batch.direction_du, ray);
-  out.direction_dy = point_of(batch.direction_dv, ray);
+HitRay RayTracer::hit_ray(const Shooter& shooter, const slvm::RayBatch& batch, size_t ray, float time,
+                          const RayHit& hit) {
+  const auto number = static_cast<uint32_t>(ray);
+  return {number, number, shooter.point(batch, ray), geometry_->place(hit), hit.distance, time};
+}
+
+std::vector<Color> RayTracer::weights(const Shooter& shooter, const slvm::RayBatch& batch) const {
+  std::vector<Color> out;
+  if (!batch.weight[0] && !shooter.facts.weight[0]) return out;
+  out.reserve(batch.count);
+  for (size_t i = 0; i < batch.count; ++i)
+    out.push_back(shooter.weight(batch.weight, i, shooter.point(batch, i)));
   return out;
 }
 
@@ -138,13 +135,14 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   }
   RayGeometry& g = geometry();
   RayRule rule{g.seen(options.kind, options.subset), options.sides};
-  bool light = min_weight_ > 0;
+  const std::vector<Color> weight = weights(by, batch);
+  const bool light = min_weight_ > 0 && !weight.empty();
   std::vector<HitRay> hits;
   if (!outputs.empty()) hits.reserve(batch.count);
   {
     auto tracing = g.tracing();
     for (size_t i = 0; i < batch.count; ++i) {
-      if (light && by.too_light(by.weight(batch.weight, i, by.point(batch, i)))) {
+      if (light && by.too_light(weight[i])) {
         distance[i] = slvm::kNotShot;
         continue;
       }
@@ -154,14 +152,15 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
       distance[i] = found ? hit.distance : kInfinity;
       if (!found) continue;
       if (cursors) cursors[i] = {hit.distance, hit.item, hit.face};
-      if (!outputs.empty()) hits.push_back(hit_ray(by, batch, i, ray, hit));
+      if (!outputs.empty()) hits.push_back(hit_ray(by, batch, i, ray.time, hit));
     }
   }
   rays_ += batch.count;
   g.trim();
   uint64_t seed = hash_of(static_cast<int64_t>(by.seed), options.seed, kHits);
   seed = hash_of(static_cast<int64_t>(seed), static_cast<int64_t>(by.number(batch, 0)), kHits);
-  hits_.shade(hits, {by.state, options.kind, options.mode, options.shades, by.next, seed}, outputs);
+  hits_.shade(hits, {by.state, {batch, weight}, options.kind, options.mode, options.shades, by.next, seed},
+              outputs);
 }
 
 RayUsage RayTracer::usage() const {

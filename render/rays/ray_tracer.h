@@ -11,6 +11,7 @@
 namespace render {
 
 class HemisphereCache;
+class HemisphereRecords;
 
 class RayTracer final : public slvm::RayServices {
 public:
@@ -34,6 +35,7 @@ public:
 private:
   friend class HemisphereSampler;
   struct Shooter;
+  class HemisphereRun;
 
   const RayAttributes& attributes_of(const slvm::Grid& grid) const {
     const auto* primitive = static_cast<const Primitive*>(grid.user);
@@ -45,7 +47,9 @@ private:
   void trace_by(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
                 std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors);
   RaySegment segment(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&, size_t ray) const;
-  HitRay hit_ray(const Shooter&, const slvm::RayBatch&, size_t ray, const RaySegment&, const RayHit&);
+  HitRay hit_ray(const Shooter&, const slvm::RayBatch&, size_t ray, float time, const RayHit&);
+  /// Parts of the picture that rays make; empty: all of it.
+  std::vector<Color> weights(const Shooter&, const slvm::RayBatch&) const;
   void shade_layers(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
                     std::vector<struct LightPath>&);
 
@@ -59,6 +63,7 @@ private:
   std::once_flag geometry_made_;
   std::unique_ptr<RayGeometry> geometry_;
   std::unique_ptr<HemisphereCache> cache_;
+  std::unique_ptr<HemisphereRecords> records_;
   std::mutex maps_mutex_;
   std::map<std::string, std::unique_ptr<class EnvironmentDistribution>, std::less<>> maps_;
   std::atomic<size_t> rays_{0}, shadow_rays_{0}, hemisphere_rays_{0}, hemispheres_{0};

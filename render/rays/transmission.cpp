@@ -34,13 +34,14 @@ bool is_dark(Color through) {
   return std::max({through.x, through.y, through.z}) < kDark;
 }
 
-/// Nearest first. Where a ray meets the edge between two faces of an item it has hit a surface once.
+/// Nearest first. Where a ray meets the edge between two faces of an item, or the diagonal of one, it has hit
+/// a surface once.
 void put_in_order(const RayGeometry& geometry, std::vector<RayHit>& layers) {
   std::sort(layers.begin(), layers.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.distance, a.item, a.face) < std::tie(b.distance, b.item, b.face);
   });
   auto same = [&](const RayHit& a, const RayHit& b) {
-    return a.item == b.item && a.face != b.face && b.distance - a.distance <= 2e-6f * b.distance &&
+    return a.item == b.item && b.distance - a.distance <= 2e-6f * b.distance &&
            geometry.same_surface(a.item, a.face, b.face);
   };
   layers.erase(std::unique(layers.begin(), layers.end(), same), layers.end());
@@ -69,7 +70,7 @@ bool find_more(const RayGeometry& geometry, const RayRule& rule, LightPath& path
       return true;
     }
     path.end = {hit.distance, hit.item, hit.face};
-    if (geometry.traits(hit.item).shadow == RayOpacity::kOpaque) return false;
+    if (geometry.shadow(hit) == RayOpacity::kOpaque) return false;
     path.layers.push_back(hit);
   }
   return true;
@@ -82,9 +83,9 @@ const Color* constant_opacity(const Primitive& p) {
   return &p.attributes().opacity;
 }
 
-RayOpacity opacity_of(const RayTraits& traits, slvm::HitMode mode) {
+RayOpacity opacity_of(RayOpacity own, slvm::HitMode mode) {
   if (mode == slvm::HitMode::kPrimitive) return RayOpacity::kOs;
-  return mode == slvm::HitMode::kShader ? RayOpacity::kShader : traits.shadow;
+  return mode == slvm::HitMode::kShader ? RayOpacity::kShader : own;
 }
 
 } // namespace
@@ -99,7 +100,9 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
     size_t end = std::min(path.layers.size(), path.next + kShadedAtATime);
     for (; path.next < end; ++path.next) {
       const RayHit& layer = path.layers[path.next];
-      RayOpacity opacity = opacity_of(geometry_->traits(layer.item), options.mode);
+      RayOpacity opacity = opacity_of(geometry_->shadow(layer), options.mode);
+      if (opacity == RayOpacity::kTransparent) continue;
+      if (opacity == RayOpacity::kOpaque) path.through = Color(0.0f);
       if (opacity == RayOpacity::kOs) {
         const Primitive& p = scene_.primitives[geometry_->place(layer).primitive];
         if (const Color* constant = constant_opacity(p)) {
@@ -107,12 +110,14 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
           continue;
         }
       }
-      HitRay hit = hit_ray(by, batch, path.ray, path.segment, layer);
-      hit.ray = static_cast<uint32_t>(path_of.size());
+      HitRay hit = hit_ray(by, batch, path.ray, path.segment.time, layer);
+      hit.slot = static_cast<uint32_t>(path_of.size());
       path_of.push_back(i);
       (opacity == RayOpacity::kShader ? to_shade : to_evaluate).push_back(hit);
     }
   }
+  const std::vector<Color> weight = weights(by, batch);
+  const HitRays rays{batch, weight};
   std::vector<float> values(3 * path_of.size());
   slvm::RayOutput out;
   out.type = slvm::Type::kColor;
@@ -121,10 +126,11 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
   uint64_t seed = hash_of(static_cast<int64_t>(by.seed), options.seed, kHits);
   out.from = slvm::RayOutput::From::kPrimitive;
   out.name = "Os";
-  hits_.shade(to_evaluate, {by.state, options.kind, options.mode, false, by.next, seed}, {&out, 1});
+  hits_.shade(to_evaluate, {by.state, rays, options.kind, options.mode, false, by.next, seed}, {&out, 1});
   out.from = slvm::RayOutput::From::kSurface;
   out.name = "Oi";
-  hits_.shade(to_shade, {by.state, options.kind, slvm::HitMode::kShader, true, by.next, seed}, {&out, 1});
+  hits_.shade(to_shade, {by.state, rays, options.kind, slvm::HitMode::kShader, true, by.next, seed},
+              {&out, 1});
   for (size_t k = 0; k < path_of.size(); ++k)
     for (int c = 0; c < 3; ++c)
       paths[path_of[k]].through[c] *= 1 - values[static_cast<size_t>(c) * out.pitch + k];

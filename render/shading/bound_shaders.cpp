@@ -123,6 +123,8 @@ BoundShaders::Binder::bind(const std::shared_ptr<const Attributes>& a) {
   bound->shaders.displacement = bind(a->displacement);
   bound->shaders.surface = bind(a->surface);
   bound->shaders.atmosphere = bind(a->atmosphere);
+  bound->shaders.interior = bind(a->interior);
+  bound->shaders.exterior = bind(a->exterior);
   for (const auto& light : a->lights)
     if (const slvm::Instance* instance = bind(light)) bound->lights.push_back(instance);
   return bound;

@@ -41,7 +41,8 @@ struct BoundAttributes {
   std::vector<const slvm::Instance*> lights;
   bool same_as(const BoundAttributes& b) const {
     return shaders.displacement == b.shaders.displacement && shaders.surface == b.shaders.surface &&
-           shaders.atmosphere == b.shaders.atmosphere && lights == b.lights;
+           shaders.atmosphere == b.shaders.atmosphere && shaders.interior == b.shaders.interior &&
+           shaders.exterior == b.shaders.exterior && lights == b.lights;
   }
 };
 

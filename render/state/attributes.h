@@ -53,7 +53,7 @@ struct Attributes {
   CubicBasis ubasis = bezier_basis(), vbasis = bezier_basis();
   std::shared_ptr<const TrimRegion> trim; ///< of NURBS patches; null: they are whole
 
-  std::shared_ptr<const ShaderRequest> surface, displacement, atmosphere;
+  std::shared_ptr<const ShaderRequest> surface, displacement, atmosphere, interior, exterior;
   /// Lights that are on, in order of declaration.
   std::vector<std::shared_ptr<const ShaderRequest>> lights;
 

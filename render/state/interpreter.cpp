@@ -58,6 +58,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
     set(kLightSource, &I::light_source), set(kAreaLightSource, &I::light_source),
         set(kIlluminate, &I::illuminate);
     set(kSurface, &I::shader), set(kDisplacement, &I::shader), set(kAtmosphere, &I::shader);
+    set(kInterior, &I::shader), set(kExterior, &I::shader);
     set(kShadingRate, &I::shading_rate), set(kShadingInterpolation, &I::shading_interpolation);
     set(kMatte, &I::matte), set(kOrientation, &I::orientation);
     set(kReverseOrientation, &I::reverse_orientation), set(kSides, &I::sides), set(kBasis, &I::basis);

@@ -125,7 +125,7 @@ std::shared_ptr<ShaderRequest> Interpreter::make_shader(const RequestCall& call)
   return shader;
 }
 
-/// Surface, Displacement, Atmosphere.
+/// Surface, Displacement, Atmosphere, Interior, Exterior.
 void Interpreter::shader(const RequestCall& call) {
   auto shader = call.text(0) == "null" ? nullptr : make_shader(call);
   Attributes& a = edit();
@@ -136,6 +136,8 @@ void Interpreter::shader(const RequestCall& call) {
     a.surface = shader ? shader : make_shader(call);
     break;
   case RequestId::kDisplacement: a.displacement = shader; break;
+  case RequestId::kInterior: a.interior = shader; break;
+  case RequestId::kExterior: a.exterior = shader; break;
   default: a.atmosphere = shader; break;
   }
 }

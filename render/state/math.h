@@ -25,13 +25,16 @@ inline float radians(float degrees) {
   return degrees * (kPi / 180.0f);
 }
 
+/// slvm's functions, inline: they are called for every point there is.
 inline Vec3 transform_point(const Matrix4& m, Vec3 p) {
-  auto r = slvm::transform_point(m, {p.x, p.y, p.z});
-  return {r[0], r[1], r[2]};
+  auto column = [&](int j) { return p.x * m(0, j) + p.y * m(1, j) + p.z * m(2, j) + m(3, j); };
+  Vec3 out(column(0), column(1), column(2));
+  float w = column(3);
+  return w == 0 || w == 1 ? out : Vec3(out.x / w, out.y / w, out.z / w);
 }
 inline Vec3 transform_vector(const Matrix4& m, Vec3 v) {
-  auto r = slvm::transform_vector(m, {v.x, v.y, v.z});
-  return {r[0], r[1], r[2]};
+  auto column = [&](int j) { return v.x * m(0, j) + v.y * m(1, j) + v.z * m(2, j); };
+  return {column(0), column(1), column(2)};
 }
 inline bool is_affine(const Matrix4& m) {
   return m(0, 3) == 0 && m(1, 3) == 0 && m(2, 3) == 0 && m(3, 3) == 1;

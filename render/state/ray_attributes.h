@@ -5,6 +5,7 @@
 
 #include "slvm/value.h"
 
+#include <compare>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ struct RayAttributes {
   float max_error = 0.5f, max_pixel_distance = 30;
   /// "grouping" "membership": names with single spaces between.
   std::string groups;
+
+  auto operator<=>(const RayAttributes&) const = default;
 
   bool seen_by_rays() const { return specular || diffuse || transmission != RayOpacity::kTransparent; }
   /// `transmission`, where "shade" "transmissionhitmode" "primitive" spares the shaders.

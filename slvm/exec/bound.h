@@ -54,6 +54,7 @@ struct Instance::Bound {
   /// grid, and those that move from strip to strip. Both in order.
   std::vector<uint32_t> fixed_operands, moving_operands;
   std::vector<ParamValue> given; ///< of lights: what the instance was made with
+  uint32_t last_derivative = 0;  ///< the shader's code from this word on reads no neighbouring points
   bool emits = false;            ///< a light with illuminate or solar: not an ambient light
   bool emits_once = false;       ///< one such block, outside loops: its L, Cl and Ol stay where they are
   bool reads_messages = false;   ///< its results depend on other shaders' parameters

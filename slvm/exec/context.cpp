@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <deque>
 
 namespace slvm {
 
@@ -16,12 +17,23 @@ struct ShadingContext::Impl {
 
   enum Role { kDisplacement, kSurface, kAtmosphere, kInterior, kExterior, kSingle, kRoles };
 
-  // The run of an instance in a role; kept from grid to grid with its memory.
+  // The run of an instance in a role; kept from grid to grid with its memory, also over grids of a few
+  // others: hits of rays go from surface to surface.
   ShaderRun& run_of(Role role, const Instance& instance) {
     std::unique_ptr<ShaderRun>& run = runs[role];
-    if (!run || ids[role] != instance.id()) {
+    if (run && ids[role] == instance.id()) return *run;
+    if (run) {
+      if (idle.size() == kIdleRuns) idle.pop_front();
+      idle.emplace_back(ids[role], std::move(run));
+    }
+    ids[role] = instance.id();
+    auto known =
+        std::find_if(idle.begin(), idle.end(), [&](const auto& i) { return i.first == instance.id(); });
+    if (known == idle.end()) {
       run = std::make_unique<ShaderRun>(state, instance);
-      ids[role] = instance.id();
+    } else {
+      run = std::move(known->second);
+      idle.erase(known);
     }
     return *run;
   }
@@ -73,6 +85,8 @@ struct ShadingContext::Impl {
   ShaderSet shaders;
   GridState state;
   PluginThread plugins;
+  static constexpr size_t kIdleRuns = 16;
+  std::deque<std::pair<uint64_t, std::unique_ptr<ShaderRun>>> idle; ///< by instance, the longest idle first
   std::unique_ptr<ShaderRun> runs[kRoles];
   uint64_t ids[kRoles] = {};
 };
@@ -135,6 +149,9 @@ void ShadingContext::shade_displaced(const ShaderSet& set, Grid& grid) {
 
 void ShadingContext::shade_surface(const ShaderSet& set, Grid& grid) {
   impl_->begin(set, grid);
+  if (!set.displacement) impl_->state.displacement = nullptr; // that of another grid
+  impl_->state.surface = impl_->state.atmosphere = nullptr;
+  impl_->state.interior = impl_->state.exterior = nullptr;
   begin_output(grid, Global::kCi, Global::kCs);
   begin_output(grid, Global::kOi, Global::kOs);
   impl_->announce(Impl::kAtmosphere, set.atmosphere, set.surface);
@@ -144,7 +161,19 @@ void ShadingContext::shade_surface(const ShaderSet& set, Grid& grid) {
 }
 
 void ShadingContext::shade_atmosphere() {
-  impl_->execute(Impl::kAtmosphere, impl_->shaders.atmosphere);
+  if (impl_->shaders.atmosphere) shade_volume(*impl_->shaders.atmosphere);
+  end_grid();
+}
+
+void ShadingContext::shade_volume(const Instance& volume) {
+  const ShaderSet& set = impl_->shaders;
+  impl_->execute(&volume == set.interior   ? Impl::kInterior
+                 : &volume == set.exterior ? Impl::kExterior
+                                           : Impl::kAtmosphere,
+                 &volume);
+}
+
+void ShadingContext::end_grid() {
   impl_->plugins.end_grid();
 }
 

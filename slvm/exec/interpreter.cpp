@@ -164,6 +164,18 @@ void ShaderRun::shoot_from_samples(const GridCall& call, GridOp op) {
   }
 }
 
+// Where no derivative follows, the points beside hits are done with, if nobody else wants them. A light is
+// part of the surface it shines on.
+void ShaderRun::leave_neighbours(Frame& f, MaskStack& m, uint32_t pc) {
+  const size_t samples = state.grid->samples();
+  if (!state.grid->neighbours_end || !in_body_ || points == samples || pc < bound.last_derivative ||
+      m.depth() > 0 || (outer && outer->points != samples))
+    return;
+  points = samples;
+  f.active = samples;
+  m.reset(pitch, samples);
+}
+
 void ShaderRun::run_code(Frame& frame, uint32_t pc) {
   if (state.observer)
     execute_code<true>(frame, mask, pc);
@@ -279,6 +291,7 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
     case Opcode::k_end:
     case Opcode::k_endstrip: return;
     case Opcode::k_strip:
+      leave_neighbours(f, m, at);
       run_strips<kObserved>(f, m, pc, w[0], w[1] != 0);
       pc = w[0] + 1; // past the endstrip, which is one word
       break;
@@ -343,6 +356,7 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       pc = w[1];
       break;
     case Opcode::k_illuminance: {
+      leave_neighbours(f, m, at);
       Operand axis = operand_at(f, &w[4]), angle = operand_at(f, &w[5]);
       auto category = std::bit_cast<uint32_t>(*operand_at(f, &w[2]).data);
       m.push_loop();
@@ -356,6 +370,7 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       pc = next_light(m, w[0], at);
       break;
     case Opcode::k_illuminate: {
+      leave_neighbours(f, m, at);
       Operand axis = operand_at(f, &w[3]), angle = operand_at(f, &w[4]);
       begin_illuminate(*this, operand_at(f, &w[2]), w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
       m.push_if(lit_.data());
@@ -365,6 +380,7 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       break;
     }
     case Opcode::k_solar: {
+      leave_neighbours(f, m, at);
       Operand axis = operand_at(f, &w[2]), angle = operand_at(f, &w[3]);
       begin_solar(*this, w[1] ? &axis : nullptr, w[1] ? &angle : nullptr, lit_);
       m.push_if(lit_.data());

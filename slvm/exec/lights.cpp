@@ -61,11 +61,12 @@ LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance
   if (place == grids_.size()) grids_.push_back(std::make_unique<LitGrid>());
   std::swap(grids_[used_], grids_[place]);
   LitGrid& g = *grids_[used_++];
-  if (g.light_id != shader.id() || g.run->outer != &by) {
+  if (g.light_id != shader.id()) {
     g.run = std::make_unique<ShaderRun>(state, shader, &by);
     g.light = &light;
     g.light_id = shader.id();
   }
+  g.run->outer = &by;
   save(position, pitch, g.position);
   if (uses_normal) save(normal, pitch, g.normal);
   g.run->prepare(&position, &normal, sent);

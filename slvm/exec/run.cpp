@@ -45,7 +45,9 @@ void ShaderRun::execute() {
   if (state.observer) state.observer->begin_run(instance);
   compute_defaults();
   Frame frame = frame_;
+  in_body_ = true;
   run_code(frame, program.sections[0]);
+  in_body_ = false;
   if (state.observer) state.observer->end_run(instance);
 }
 

@@ -27,7 +27,7 @@ struct GridState {
   const ShaderRun* displacement = nullptr;
   const ShaderRun* surface = nullptr;
   const ShaderRun* atmosphere = nullptr;
-  const ShaderRun* interior = nullptr; ///< these two never run here: their parameters only
+  const ShaderRun* interior = nullptr; ///< these two run at hits of rays only; else their parameters count
   const ShaderRun* exterior = nullptr;
   ExecutionObserver* observer = nullptr; ///< told of each instruction; null: nobody
   PluginThread* plugins = nullptr;       ///< what this thread has of plug-ins
@@ -70,7 +70,7 @@ public:
   const ShaderRun* outer;
   const Program& program;
   const Instance::Bound& bound;
-  size_t points = 0, pitch = 0;
+  size_t points = 0, pitch = 0; ///< of the grid; points fewer when neighbours of hits are left out
 
   std::vector<Planes> slots; ///< by slot of the program
   MaskStack mask;            ///< of the whole grid
@@ -128,6 +128,7 @@ private:
   void run_strips(const Frame& grid, const MaskStack& grid_mask, uint32_t body, uint32_t end, bool all);
   void call(const Frame& frame, uint32_t pc, uint16_t import, std::span<const uint32_t> words);
   void shoot_from_samples(const GridCall& call, GridOp op);
+  void leave_neighbours(Frame& frame, MaskStack& mask, uint32_t pc);
   void copy_planes(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words, bool masked);
   void first_active(const Frame& frame, const MaskStack& mask, std::span<const uint32_t> words);
   void array_load(const Frame& frame, const MaskStack& mask, uint32_t pc, std::span<const uint32_t> words);
@@ -154,6 +155,7 @@ private:
   bool take_round(uint32_t pc, size_t lanes);
 
   Frame frame_{};
+  bool in_body_ = false; ///< the shader itself runs, not a default
   uint64_t rounds_left_ = 0;
   std::span<const SentValue> sent_;
   PlaneMemory memory_;

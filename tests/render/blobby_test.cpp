@@ -94,7 +94,7 @@ double visit(const Scene& s, const std::function<void(Vec3 P, Vec3 N)>& f) {
   for (const Primitive& p : s.primitives) {
     SurfaceLattice l;
     float ends[2] = {0, 1};
-    p.geometry->evaluate(ends, ends, l);
+    p.geometry->evaluate({ends, ends}, l);
     for (size_t k = 0; k < 4; ++k)
       f(l.P[k], glm::normalize(l.N[k]));
     volume += static_cast<double>(
@@ -141,7 +141,7 @@ TEST(Blobby, variables_are_mixed_by_the_leaves) {
   for (const Primitive& p : s.primitives) {
     SurfaceLattice l;
     float zero = 0;
-    p.geometry->evaluate({&zero, 1}, {&zero, 1}, l);
+    p.geometry->evaluate({{&zero, 1}, {&zero, 1}}, l);
     double x = l.P[0].x, y = std::hypot(l.P[0].y, l.P[0].z);
     double a = sphere(std::hypot(x, y)), b = sphere(std::hypot(x - 0.8, y));
     ASSERT_EQ(p.vars.size(), 2u);

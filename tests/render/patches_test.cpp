@@ -15,7 +15,7 @@ using testing::expect_near;
 
 SurfaceLattice lattice(const Geometry& g, std::vector<float> u, std::vector<float> v) {
   SurfaceLattice l;
-  g.evaluate(u, v, l);
+  g.evaluate({u, v}, l);
   return l;
 }
 
@@ -118,7 +118,7 @@ TEST(Polygons, texture_coordinates_are_object_x_and_y) {
   EXPECT_EQ(p[0].vars[0].name, "st");
   float out[2];
   float u = 0.5f, v = 0.5f;
-  interpolate(p[0].vars[0], {&u, 1}, {&v, 1}, out, 1);
+  interpolate(p[0].vars[0], {{&u, 1}, {&v, 1}}, out, 1);
   EXPECT_FLOAT_EQ(out[0], 3);
   EXPECT_FLOAT_EQ(out[1], 5);
 }
@@ -133,7 +133,7 @@ TEST(Polygons, values_linear_over_a_triangle_stay_linear) {
       for (float v : {0.2f, 0.9f}) {
         Vec3 p = lattice(*patch.geometry, {u}, {v}).P[0];
         float value;
-        interpolate(patch.vars[0], {&u, 1}, {&v, 1}, &value, 1);
+        interpolate(patch.vars[0], {{&u, 1}, {&v, 1}}, &value, 1);
         EXPECT_NEAR(value, p.x + 2 * p.y, 1e-6f);
       }
 }

@@ -88,13 +88,13 @@ double area_of(const Scene& s, std::string_view name = "", double* sum = nullptr
       for (int i = 0; i < kSteps; ++i) {
         float u = (static_cast<float>(i) + 0.5f) / kSteps, v = (static_cast<float>(j) + 0.5f) / kSteps;
         SurfaceLattice l;
-        p.geometry->evaluate({&u, 1}, {&v, 1}, l);
+        p.geometry->evaluate({{&u, 1}, {&v, 1}}, l);
         double a = l.N[0].z / kSteps / kSteps;
         area += a;
         for (const PatchVar& var : p.vars)
           if (sum && var.name == name) {
             std::vector<float> value(var.width());
-            interpolate(var, {&u, 1}, {&v, 1}, value.data(), 1);
+            interpolate(var, {{&u, 1}, {&v, 1}}, value.data(), 1);
             *sum += value[0] * a;
           }
       }
@@ -118,7 +118,7 @@ TEST(Polygons, faces_share_what_their_mesh_holds) {
   s = {};
   SurfaceLattice l;
   float zero = 0;
-  last->evaluate({&zero, 1}, {&zero, 1}, l);
+  last->evaluate({{&zero, 1}, {&zero, 1}}, l);
   EXPECT_EQ(l.P[0], Vec3(-1, 1, 0));
 }
 

@@ -1,5 +1,6 @@
 // Quadrics: positions and normals against closed forms, bounds against sampling.
 #include "render/prims/quadrics.h"
+#include "slvm/support/turn.h"
 
 #include "tests/render/surface_probe.h"
 
@@ -91,6 +92,19 @@ TEST(Quadrics, normals_point_outwards) {
   expect_near(glm::normalize(cone.N), {std::sqrt(0.5f), 0, std::sqrt(0.5f)});
   Point apex = at(**make_paraboloid(1, 0, 1, 360), 0, 0);
   EXPECT_LT(glm::normalize(apex.N).z, -0.99f);
+}
+
+TEST(Quadrics, turns_are_exact_enough) {
+  for (int i = -4000; i <= 4000; ++i) {
+    float turn = static_cast<float>(i) / 1000, sine, cosine;
+    slvm::sine_and_cosine(turn, sine, cosine);
+    double angle = 2 * M_PI * static_cast<double>(turn);
+    EXPECT_NEAR(sine, std::sin(angle), 1.5e-7) << turn;
+    EXPECT_NEAR(cosine, std::cos(angle), 1.5e-7) << turn;
+    if (i % 250 != 0) continue;
+    EXPECT_EQ(sine, std::round(std::sin(angle))) << "whole quarters are exact";
+    EXPECT_EQ(cosine, std::round(std::cos(angle)));
+  }
 }
 
 TEST(Quadrics, a_negative_sweep_turns_the_normals_over) {

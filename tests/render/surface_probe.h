@@ -13,7 +13,7 @@ struct SurfacePoint {
 
 inline SurfacePoint at(const Geometry& g, float u, float v) {
   SurfaceLattice l;
-  g.evaluate({&u, 1}, {&v, 1}, l);
+  g.evaluate({{&u, 1}, {&v, 1}}, l);
   return {l.P[0], l.N[0], l.dPdu[0], l.dPdv[0]};
 }
 inline SurfacePoint at(const Primitive& p, float u, float v) {
@@ -25,7 +25,7 @@ inline float value(const Primitive& p, std::string_view name, float u, float v) 
   for (const PatchVar& var : p.vars)
     if (var.name == name) {
       std::vector<float> out(var.width());
-      interpolate(var, {&u, 1}, {&v, 1}, out.data(), 1);
+      interpolate(var, {{&u, 1}, {&v, 1}}, out.data(), 1);
       return out[0];
     }
   ADD_FAILURE() << "no variable " << name;

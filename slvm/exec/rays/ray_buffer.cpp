@@ -2,26 +2,13 @@
 #include "slvm/exec/rays/ray_buffer.h"
 
 #include "slvm/exec/rays/sample_sequence.h"
+#include "slvm/support/turn.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace slvm {
 namespace {
-
-/// Sine and cosine of a part of a turn, from 0 to 1, with an error below 4e-7: Taylor's polynomials of an
-/// eighth.
-inline void sine_and_cosine(float turn, float& sine, float& cosine) {
-  const float quarters = turn * 4;
-  const int quarter = static_cast<int>(quarters + 0.5f);
-  const float x = (quarters - static_cast<float>(quarter)) * (std::numbers::pi_v<float> / 2), x2 = x * x;
-  const float s = x * (1 + x2 * (-1.0f / 6 + x2 * (1.0f / 120 - x2 / 5040)));
-  const float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 + x2 * (-1.0f / 720 + x2 / 40320)));
-  const float a = quarter & 1 ? c : s, b = quarter & 1 ? s : c;
-  sine = quarter & 2 ? -a : a;
-  cosine = (quarter + 1) & 2 ? -b : b;
-}
 
 const float* start(const PointArray& a) {
   return a.empty() ? nullptr : a.data();

@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <functional>
+#include <numeric>
+#include <random>
 
 namespace render::testing {
 namespace {
@@ -311,21 +313,22 @@ TEST(Hemisphere, gradients_are_those_of_the_values) {
   // Occlusion by the sphere of before, at a point beside it, differentiated by hand; and turned towards it.
   RayScene s(world("Translate 0 1.1 6 Sphere .5 -.5 .5 360"));
   // Two points so far apart that the middle is interpolated by their slopes only: a line of 3.
-  Ask ask(s, 3, 2);
+  constexpr int kRows = 22; // as many as make a lattice
+  Ask ask(s, 3, kRows);
   ask.query.samples = 16384;
   ask.query.max_error = 10;
-  for (int j = 0; j < 2; ++j)
+  for (int j = 0; j < kRows; ++j)
     for (int i = 0; i < 3; ++i)
       ask.place(static_cast<size_t>(3 * j + i),
-                {0.2f + 0.2f * static_cast<float>(i), 0, 6 + 0.05f * static_cast<float>(j)}, {0, 1, 0});
+                {0.2f + 0.2f * static_cast<float>(i), 0, 6 + 0.002f * static_cast<float>(j)}, {0, 1, 0});
   ask.run();
   auto exact = [](double x) { return 0.25 * 1.1 / std::pow(x * x + 1.21, 1.5); };
   EXPECT_NEAR(ask.occlusion[1], exact(0.4), 0.002);
   // Turned: the point stays, the normal goes from -30 to 30 degrees about z; the middle looks straight up.
-  for (int j = 0; j < 2; ++j)
+  for (int j = 0; j < kRows; ++j)
     for (int i = 0; i < 3; ++i) {
       float a = 0.5f * static_cast<float>(i - 1);
-      ask.place(static_cast<size_t>(3 * j + i), {0.4f, 0, 6 + 0.001f * static_cast<float>(j)},
+      ask.place(static_cast<size_t>(3 * j + i), {0.4f, 0, 6 + 0.0001f * static_cast<float>(j)},
                 {std::sin(a), std::cos(a), 0});
     }
   ask.run();
@@ -364,6 +367,111 @@ TEST(Hemisphere, grids_agree_on_the_edge_they_share_in_any_order) {
   EXPECT_EQ(right, right2);
   for (size_t j = 0; j < 17; ++j)
     EXPECT_EQ(left[j * 17 + 16], right[j * 17]) << "no seam";
+}
+
+/// A plane with a sphere of radius 0.5 resting on it, as facets of 2 x 2 points that are asked for in this
+/// order: occlusion by number of the facet, and how many samples that took.
+std::vector<float> facets_by(const std::vector<int>& order, int across, size_t& samples) {
+  RayScene s(world("Translate 0 .5 6 Sphere .5 -.5 .5 360"));
+  std::vector<float> out(order.size() * 4);
+  for (int facet : order) {
+    Ask ask(s, 2, 2);
+    ask.query.max_error = 0.3f;
+    for (size_t k = 0; k < 4; ++k) {
+      const int i = 2 * (facet % across) + static_cast<int>(k % 2),
+                j = 2 * (facet / across) + static_cast<int>(k / 2);
+      ask.place(k,
+                {-1 + (static_cast<float>(i) + 0.5f) / static_cast<float>(across), 0,
+                 5 + (static_cast<float>(j) + 0.5f) / static_cast<float>(across)},
+                {0, 1, 0});
+    }
+    ask.run();
+    std::copy_n(ask.occlusion.begin(), 4, out.begin() + 4 * facet);
+  }
+  samples = s.tracer().usage().hemispheres;
+  return out;
+}
+
+TEST(Hemisphere, facets_share_samples_whatever_their_order) {
+  constexpr int kAcross = 32, kFacets = kAcross * kAcross;
+  std::vector<int> order(kFacets);
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::vector<float>> results;
+  for (int turn = 0; turn < 3; ++turn) {
+    if (turn == 1) std::reverse(order.begin(), order.end());
+    if (turn == 2) std::shuffle(order.begin(), order.end(), std::mt19937(5));
+    size_t samples = 0;
+    results.push_back(facets_by(order, kAcross, samples));
+    EXPECT_LT(samples, 4u * kFacets / 5) << turn;
+    double squares = 0, worst = 0;
+    for (int facet = 0; facet < kFacets; ++facet) {
+      double x = -1 + (2 * (facet % kAcross) + 0.5) / kAcross,
+             z = 5 + (2 * (facet / kAcross) + 0.5) / kAcross;
+      double rho2 = x * x + (z - 6) * (z - 6), exact = 0.125 / std::pow(rho2 + 0.25, 1.5);
+      double error = results.back()[static_cast<size_t>(4 * facet)] - exact;
+      squares += error * error;
+      worst = std::max(worst, std::abs(error));
+    }
+    EXPECT_LT(std::sqrt(squares / kFacets), 0.02) << turn;
+    EXPECT_LT(worst, 0.12) << turn;
+  }
+  for (size_t k = 0; k < results[0].size(); ++k)
+    for (int turn : {1, 2})
+      ASSERT_NEAR(results[0][k], results[static_cast<size_t>(turn)][k], 0.15) << k;
+}
+
+TEST(Hemisphere, hits_of_rays_share_samples) {
+  RayScene s(world("Translate 0 .5 6 Sphere .5 -.5 .5 360"));
+  Ask ask(s, 256, 1);
+  ask.grid.lattice = slvm::Lattice::kHits;
+  ask.query.max_error = 0.3f;
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  for (size_t k = 0; k < 256; ++k)
+    ask.place(k, {unit(random), 0, 6 + unit(random)}, {0, 1, 0});
+  ask.run();
+  EXPECT_LT(s.tracer().usage().hemispheres, 220u);
+  for (size_t k = 0; k < 256; ++k) {
+    double x = ask.position[0][k], z = ask.position[2][k] - 6;
+    EXPECT_NEAR(ask.occlusion[k], 0.125 / std::pow(x * x + z * z + 0.25, 1.5), 0.12) << x << ' ' << z;
+  }
+}
+
+TEST(Hemisphere, origins_are_spread_over_the_element) {
+  // An element of side 2 about the origin, of which x < 0 lies under a plane as good as without end.
+  RayScene s(world("Polygon \"P\" [-999 .02 -999 0 .02 -999 0 .02 999 -999 .02 999]"));
+  std::vector<float> along_u[3], along_v[3], base{0};
+  Ask ask(s);
+  ask.query.samples = 1024;
+  for (int c = 0; c < 3; ++c) {
+    along_u[c] = {c == 0 ? 2.0f : 0.0f};
+    along_v[c] = {c == 2 ? 2.0f : 0.0f};
+    ask.query.along_u[c] = along_u[c].data();
+    ask.query.along_v[c] = along_v[c].data();
+  }
+  ask.query.sample_base = base.data();
+  EXPECT_NEAR(ask.at({-0.5f, 0, 0}, {0, 1, 0}), 1, 1e-2f);
+  EXPECT_NEAR(ask.at({0.5f, 0, 0}, {0, 1, 0}), 0, 2e-2f);
+  base = {1};
+  EXPECT_NEAR(ask.at({0.5f, 0, 0}, {0, 1, 0}), 0.25f, 0.03f);
+  EXPECT_NEAR(ask.at({-0.5f, 0, 0}, {0, 1, 0}), 0.75f, 0.03f);
+  base = {0.5f};
+  EXPECT_NEAR(ask.at({0.25f, 0, 0}, {0, 1, 0}), 0.25f, 0.03f);
+}
+
+TEST(Hemisphere, the_space_samples_are_kept_in_must_exist) {
+  RayScene s(world("CoordinateSystem \"here\" Sphere 1 -1 1 360"));
+  for (const char* space : {"", "here", "world", "object", "current"}) {
+    Ask ask(s);
+    ask.query.cache_space = space;
+    ask.place(0, {0, 0, 5}, {0, 0, -1});
+    EXPECT_EQ(ask.run().problem, "") << space;
+  }
+  Ask ask(s);
+  ask.query.cache_space = "nowhere";
+  ask.place(0, {0, 0, 5}, {0, 0, -1});
+  EXPECT_EQ(ask.run().problem, "there is no coordinate system \"nowhere\"");
+  EXPECT_GT(ask.occlusion[0], 0) << "the result is there all the same";
 }
 
 TEST(Hemisphere, points_that_are_off_or_broken) {

@@ -45,15 +45,31 @@ RayFan sphere_mirror(float x, float y, float step) {
   return {Vec3(p), Vec3(d), Vec3(px - p), Vec3(py - p), Vec3(dx - d), Vec3(dy - d)};
 }
 
+/// Rays that are all the same, in the form the renderer has them in.
+struct FanBatch {
+  explicit FanBatch(const RayFan& fan, size_t count = 1) {
+    const Vec3 from[] = {fan.origin,    fan.direction,    fan.origin_dx,
+                         fan.origin_dy, fan.direction_dx, fan.direction_dy};
+    for (size_t k = 0; k < 6; ++k)
+      for (int c = 0; c < 3; ++c)
+        planes[k][c].assign(count, from[k][c]);
+    batch.count = count;
+    for (int c = 0; c < 3; ++c) {
+      batch.origin[c] = planes[0][c].data();
+      batch.direction[c] = planes[1][c].data();
+      batch.origin_du[c] = planes[2][c].data();
+      batch.origin_dv[c] = planes[3][c].data();
+      batch.direction_du[c] = planes[4][c].data();
+      batch.direction_dv[c] = planes[5][c].data();
+    }
+  }
+  std::vector<float> planes[6][3];
+  slvm::RayBatch batch;
+  HitRays rays{batch, {}};
+};
+
 HitRay hit_of(RayScene& s, const RayFan& fan) {
   HitRay hit;
-  hit.origin = fan.origin;
-  hit.direction = fan.direction;
-  hit.wide = true;
-  hit.origin_dx = fan.origin_dx;
-  hit.origin_dy = fan.origin_dy;
-  hit.direction_dx = fan.direction_dx;
-  hit.direction_dy = fan.direction_dy;
   hit.distance = s.distance({fan.origin, fan.direction});
   return hit;
 }
@@ -69,9 +85,9 @@ void expect_footprint(RayScene& s, const RayFan& fan, float tolerance) {
     Vec3 p = origin + direction * ((-2 - origin.z) / direction.z);
     return Vec2((p.x + 20) / 40, (p.y + 20) / 40);
   };
-  SurfaceLattice scratch;
   Vec2 at = uv_on_wall(fan.origin, fan.direction);
-  Footprint f = footprint_on(hit, evaluate_spot(s.scene().primitives[0], at.x, at.y, scratch));
+  // All of the wall's space is camera space.
+  Footprint f = footprint_on(FanBatch(fan).rays, hit, {Vec3(at * 40.0f - 20.0f, -2), {40, 0, 0}, {0, 40, 0}});
   Vec2 x = uv_on_wall(fan.origin + fan.origin_dx, glm::normalize(fan.direction + fan.direction_dx)) - at;
   Vec2 y = uv_on_wall(fan.origin + fan.origin_dy, glm::normalize(fan.direction + fan.direction_dy)) - at;
   float size = std::max({std::abs(x.x), std::abs(x.y), std::abs(y.x), std::abs(y.y)});
@@ -95,6 +111,49 @@ TEST(Footprint, of_sphere_mirrors) {
       expect_footprint(s, sphere_mirror(x, y, 1e-4f), 0.02f);
 }
 
+TEST(Geometry, points_in_pairs_are_those_of_lattices) {
+  RayScene s(
+      "WorldBegin " + kSeen +
+      "Sphere 1 -.5 .8 300 Torus 2 .5 0 300 270 Paraboloid 1 .2 1 360 Hyperboloid 1 0 0 1 1 1 360 Disk 0 1 "
+      "360 "
+      "Patch \"bilinear\" \"P\" [0 0 0 2 0 0 0 1 1 2 2 0] "
+      "Patch \"bicubic\" \"P\" [-3 -3 0 -1 -3 2 1 -3 -2 3 -3 0  -3 -1 2 -1 -1 3 1 -1 0 3 -1 2 "
+      "-3 1 0 -1 1 -3 1 1 3 3 1 0  -3 3 0 -1 3 2 1 3 -2 3 3 0] "
+      "NuPatch 3 3 [0 0 0 1 1 1] 0 1 3 3 [0 0 0 1 1 1] 0 1 "
+      "\"Pw\" [0 0 0 1 1 0 1 2 2 0 0 1  0 1 1 1 1 1 0 1 2 1 1 1  0 2 0 1 1 2 1 1 2 2 0 3] "
+      "PointsPolygons [3 4] [0 1 2 2 1 3 4] \"P\" [0 0 0 1 0 0 0 1 0 2 0 1 1 1 1] "
+      "SubdivisionMesh \"catmull-clark\" [4 4] [0 1 4 3 1 2 5 4] [\"interpolateboundary\"] [0 0] [] [] "
+      "\"P\" [0 0 0 1 0 0 2 0 1 0 1 0 1 1 1 2 1 0] "
+      "Curves \"cubic\" [4] \"nonperiodic\" \"P\" [0 0 0 1 1 0 2 0 1 3 1 0] \"constantwidth\" [.2] "
+      "Points \"P\" [0 0 0 1 1 1] WorldEnd");
+  ASSERT_EQ(s.messages(), "");
+  std::vector<float> u, v, pair_u, pair_v;
+  for (int i = 0; i < 11; ++i) {
+    u.push_back(static_cast<float>(i) / 10);
+    v.push_back(static_cast<float>(10 - i) / 10);
+  }
+  for (float b : v)
+    for (float a : u) {
+      pair_u.push_back(a);
+      pair_v.push_back(b);
+    }
+  size_t kinds = 0;
+  for (const Primitive& p : s.scene().primitives) {
+    SurfaceLattice lattice, pairs;
+    p.geometry->evaluate({u, v}, lattice);
+    p.geometry->evaluate({pair_u, pair_v, true}, pairs);
+    ASSERT_EQ(lattice.P.size(), pairs.P.size());
+    ++kinds;
+    for (size_t k = 0; k < pairs.P.size(); ++k) {
+      EXPECT_LT(glm::distance(lattice.P[k], pairs.P[k]), 1e-5f) << kinds << ' ' << k;
+      EXPECT_LT(glm::distance(lattice.N[k], pairs.N[k]), 1e-4f) << kinds << ' ' << k;
+      EXPECT_LT(glm::distance(lattice.dPdu[k], pairs.dPdu[k]), 1e-4f) << kinds << ' ' << k;
+      EXPECT_LT(glm::distance(lattice.dPdv[k], pairs.dPdv[k]), 1e-4f) << kinds << ' ' << k;
+    }
+  }
+  EXPECT_GE(kinds, 12u);
+}
+
 TEST(HitGrid, neighbours_lie_where_neighbouring_rays_hit) {
   RayScene s("WorldBegin " + kSeen + "Translate 0 0 -6 Rotate 20 1 1 0 Sphere 3 -3 3 360 WorldEnd");
   RayFan fan = sphere_mirror(0.01f, -0.02f, 2e-4f);
@@ -108,7 +167,8 @@ TEST(HitGrid, neighbours_lie_where_neighbouring_rays_hit) {
   DiceContext context{&camera, &s.machine().strings(), 0, 0};
   HitGrid hits;
   std::vector<HitRay> list(3, hit);
-  hits.dice(s.scene(), list, true, context);
+  FanBatch batch(fan, 3);
+  hits.dice(s.scene(), batch.rays, list, true, context);
   slvm::Grid& g = hits.grid;
   ASSERT_EQ(g.nu(), 3);
   ASSERT_EQ(g.nv(), 3);
@@ -148,19 +208,53 @@ TEST(HitGrid, derivatives_at_the_edges_of_a_surface) {
   DiceContext context{&camera, &s.machine().strings(), 0, 0};
   HitRay hit;
   hit.place = {0, 1, 1, false};
-  hit.origin = {1, 1, 0};
-  hit.direction = {0, 0, 1};
   hit.distance = 5;
-  hit.wide = true;
-  hit.origin_dx = {0.25f, 0, 0};
-  hit.origin_dy = {0, 3, 0};
+  FanBatch batch({{1, 1, 0}, {0, 0, 1}, {0.25f, 0, 0}, {0, 3, 0}, Vec3(0.0f), Vec3(0.0f)});
   HitGrid hits;
-  hits.dice(s.scene(), {&hit, 1}, true, context);
+  hits.dice(s.scene(), batch.rays, {&hit, 1}, true, context);
   const slvm::Planes &u = hits.grid.variable(slvm::Global::ku), &v = hits.grid.variable(slvm::Global::kv);
   EXPECT_NEAR(u.get(0, 1), 1.25f, 1e-4f);
   EXPECT_NEAR(v.get(0, 2), 4, 1e-3f);
   EXPECT_NEAR(hits.grid.variable(slvm::Global::kdu).get(0, 0), 0.25f, 1e-4f);
   EXPECT_NEAR(hits.grid.variable(slvm::Global::kP).get(0, 1), 1.25f, 1e-4f);
+}
+
+TEST(HitGrid, neighbours_are_left_out_behind_the_last_derivative) {
+  // The same shader, once with a derivative at its end that changes nothing; a light whose colour varies,
+  // loops and conditions behind and in front of derivatives.
+  auto shader = [](const std::string& name, const std::string& last) {
+    return "surface " + name +
+           "() { color c = 0; float d = Du(s * s), k = 0; uniform float i;"
+           " if (s > .5) d *= 2;"
+           " illuminance(P, N, PI) c += Cl * (normalize(L).normalize(N));"
+           " for (i = 0; i < 3; i += 1) { if (t > .25 * i) k += noise(4 * P) + d; }"
+           " c += diffuse(faceforward(normalize(N), I)); float e = d * k;" +
+           last + " Ci = c * (1 + d + e); Oi = 1; }";
+  };
+  auto rib = [](const std::string& name) {
+    return "WorldBegin " + kSeen + "Translate 0 0 4 LightSource \"lamp\" 1 TransformBegin Surface \"" + name +
+           "\" Sphere 1 -1 1 360 TransformEnd WorldEnd";
+  };
+  const std::string lamp =
+      "light lamp() { illuminate(point \"shader\" (2, 2, -3)) { Cl = 9 * noise(3 * Ps) / (L.L); } }";
+  RayScene early(rib("early"), {{"early", shader("early", "")}, {"lamp", lamp}});
+  RayScene late(rib("late"), {{"late", shader("late", " e += 0 * Du(e);")}, {"lamp", lamp}});
+  EXPECT_EQ(early.messages() + late.messages(), "");
+  std::vector<TestRay> rays;
+  for (int i = 0; i < 500; ++i) {
+    float a = 0.37f * static_cast<float>(i), r = 0.0018f * static_cast<float>(i);
+    rays.push_back({{r * std::cos(a), r * std::sin(a), 0}});
+  }
+  const std::vector<slvm::RayOutput> Ci{
+      RayScene::output(slvm::RayOutput::From::kSurface, "Ci", slvm::Type::kColor)};
+  auto x = early.trace(rays, Ci), y = late.trace(rays, Ci);
+  float most = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(x[i].values[0].size(), 3u);
+    EXPECT_EQ(x[i].values[0], y[i].values[0]) << i;
+    most = std::max(most, x[i].values[0][0]);
+  }
+  EXPECT_GT(most, 0.1f);
 }
 
 TEST(HitGrid, shaders_at_hits_differentiate) {

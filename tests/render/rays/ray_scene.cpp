@@ -117,10 +117,9 @@ std::vector<float> RayScene::value(const TestRay& ray, const std::string& name, 
                                    const slvm::RayOptions& options) {
   using From = slvm::RayOutput::From;
   const std::map<std::string, From> kinds = {
-      {"surface", From::kSurface},     {"displacement", From::kDisplacement},
-      {"volume", From::kVolume},       {"atmosphere", From::kAtmosphere},
-      {"primitive", From::kPrimitive}, {"attribute", From::kAttribute},
-      {"shaded", From::kShaded}};
+      {"surface", From::kSurface},       {"displacement", From::kDisplacement}, {"volume", From::kVolume},
+      {"atmosphere", From::kAtmosphere}, {"interior", From::kInterior},         {"exterior", From::kExterior},
+      {"primitive", From::kPrimitive},   {"attribute", From::kAttribute},       {"shaded", From::kShaded}};
   size_t colon = name.find(':');
   return trace({ray},
                {output(kinds.at(name.substr(0, colon)), std::string_view(name).substr(colon + 1), type)},

@@ -106,6 +106,69 @@ TEST(Trace, hits_run_displacement_surface_and_atmosphere) {
   EXPECT_THAT(s.value(ray, "primitive:s", Type::kFloat, unshaded), ElementsAre(FloatNear(0.25f, 1e-5f)));
 }
 
+TEST(Trace, messages_come_from_shaders_of_the_same_object) {
+  // Hits that follow each other in one context: what the first object's shaders left must not be found by the
+  // second one, which has none of these.
+  RayScene s(world("Surface \"ask\" TransformBegin Displacement \"lift\" Atmosphere \"haze\" "
+                   "Polygon \"P\" [-3 -1 4 -1 -1 4 -1 1 4 -3 1 4] TransformEnd "
+                   "AttributeBegin Displacement \"null\" Atmosphere \"null\" "
+                   "Polygon \"P\" [1 -1 4 3 -1 4 3 1 4 1 1 4] AttributeEnd"),
+             {{"ask", "surface ask(output varying float a = 0, b = 0) { float x = 0, y = 0;"
+                      " a = displacement(\"height\", x); a += x; b = atmosphere(\"depth\", y); b += y; }"},
+              {"lift", "displacement lift(output varying float height = 0) { height = 5; }"},
+              {"haze", "volume haze(float depth = 7) { Ci *= 2; }"}});
+  EXPECT_EQ(s.messages(), "");
+  TestRay with{{-2, 0.1f, 0}}, without{{2, 0.1f, 0}};
+  for (int i = 0; i < 3; ++i) {
+    auto hits =
+        s.trace({with, without}, {RayScene::output(slvm::RayOutput::From::kSurface, "a", Type::kFloat),
+                                  RayScene::output(slvm::RayOutput::From::kSurface, "b", Type::kFloat)});
+    EXPECT_THAT(hits[0].values[0], ElementsAre(6));
+    EXPECT_THAT(hits[0].values[1], ElementsAre(8));
+    EXPECT_THAT(hits[1].values[0], ElementsAre(0));
+    EXPECT_THAT(hits[1].values[1], ElementsAre(0));
+  }
+}
+
+TEST(Trace, volumes_of_the_side_that_is_hit) {
+  // The ray comes from no surface with volumes of its own.
+  const std::map<std::string, std::string> shaders = {
+      {"white", "surface white() { Ci = 1; }"},
+      {"fog", "volume fog(float k = 1) { Ci *= exp(-k * length(I)); }"},
+      {"haze", "volume haze() { Ci = color(0, 0, 1); }"}};
+  const std::string both = "Surface \"white\" Interior \"fog\" \"k\" .5 Exterior \"fog\" \"k\" .25 ";
+  RayScene s(world(both + "Translate 0 0 5 Sphere 1 -1 1 360"), shaders);
+  EXPECT_EQ(s.messages(), "");
+  const TestRay inside{{0, 0, 5}}, outside{};
+  auto red = [&](const TestRay& ray, const std::string& what) {
+    auto v = s.value(ray, what, Type::kColor);
+    return v.empty() ? -1.0f : v[0];
+  };
+  EXPECT_NEAR(red(inside, "shaded:Ci"), std::exp(-.5f), 1e-3f);
+  EXPECT_NEAR(red(inside, "volume:Ci"), std::exp(-.5f), 1e-3f);
+  EXPECT_NEAR(red(inside, "interior:Ci"), std::exp(-.5f), 1e-3f);
+  EXPECT_EQ(red(inside, "exterior:Ci"), -1);
+  EXPECT_EQ(red(inside, "surface:Ci"), 1) << "before any volume";
+  EXPECT_NEAR(red(outside, "shaded:Ci"), std::exp(-1.0f), 1e-3f);
+  EXPECT_NEAR(red(outside, "exterior:Ci"), std::exp(-1.0f), 1e-3f);
+  EXPECT_EQ(red(outside, "atmosphere:Ci"), -1);
+  // Turned inside out.
+  RayScene turned(world("ReverseOrientation " + both + "Translate 0 0 5 Sphere 1 -1 1 360"), shaders);
+  EXPECT_NEAR(turned.value(inside, "shaded:Ci", Type::kColor)[0], std::exp(-.25f), 1e-3f);
+  // Hits from both sides in one batch, and an atmosphere where there is no volume.
+  RayScene mixed(world("Surface \"white\" Interior \"fog\" Atmosphere \"haze\" Translate 0 0 5 "
+                       "Sphere 1 -1 1 360"),
+                 shaders);
+  auto out = mixed.trace({inside, outside, inside},
+                         {RayScene::output(slvm::RayOutput::From::kShaded, "Ci", Type::kColor),
+                          RayScene::output(slvm::RayOutput::From::kAtmosphere, "Ci", Type::kColor)});
+  EXPECT_NEAR(out[0].values[0][0], std::exp(-1.0f), 1e-3f);
+  EXPECT_THAT(out[1].values[0], ElementsAre(0, 0, 1));
+  EXPECT_NEAR(out[2].values[0][0], std::exp(-1.0f), 1e-3f);
+  EXPECT_THAT(out[0].values[1], IsEmpty());
+  EXPECT_THAT(out[1].values[1], ElementsAre(0, 0, 1));
+}
+
 TEST(Trace, what_the_shader_of_a_hit_is_told) {
   RayScene s(world("Surface \"tell\" Translate 0 0 4 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"),
              {{"tell", "surface tell(output varying float facts[3] = {0,0,0}; output varying color where = 0;"
@@ -300,6 +363,61 @@ TEST(Trace, messages_about_attributes) {
   EXPECT_THAT(s.messages(),
               ::testing::HasSubstr("Attribute: \"diffusehitmode\" is \"primitive\" or \"shader\""));
   EXPECT_THAT(s.messages(), ::testing::HasSubstr("Attribute: \"bias\" takes one number, 0 or more"));
+}
+
+// ---- Constructed solids.
+
+std::string part(const std::string& rib) {
+  return "SolidBegin \"primitive\" TransformBegin " + rib + " TransformEnd SolidEnd ";
+}
+std::string solid(const std::string& operation, const std::string& parts) {
+  return world(
+      "Opacity .5 .5 .5 Attribute \"visibility\" \"transmission\" \"Os\" Translate 0 0 5 SolidBegin \"" +
+      operation + "\" " + parts + "SolidEnd");
+}
+
+TEST(SolidRays, a_ball_cut_out_of_a_ball) {
+  // Radius 2 about z = 5 without radius 1 about z = 3.
+  RayScene s(solid("difference", part("Sphere 2 -2 2 360") + part("Translate 0 0 -2 Sphere 1 -1 1 360")));
+  EXPECT_EQ(s.messages(), "");
+  EXPECT_NEAR(s.distance({}), 4, 3e-3f) << "the bottom of the hole";
+  EXPECT_NEAR(s.distance({{1.5f, 0, 0}}), 5 - std::sqrt(1.75f), 3e-3f) << "beside the hole";
+  EXPECT_NEAR(s.distance({{0, 0, 4.5f}}), 2.5f, 3e-3f) << "from inside";
+  EXPECT_NEAR(s.distance({{0, 0, 4.5f}, {0, 0, -1}}), .5f, 3e-3f);
+  EXPECT_NEAR(s.distance({{0, 0, 3.5f}}), .5f, 3e-3f) << "in the hole";
+  EXPECT_EQ(s.distance({{0, 0, 3.5f}, {0, 0, -1}}), kInfinity) << "out of the hole";
+  EXPECT_NEAR(s.distance({{}, {0, 0, 1}, kInfinity, 4.5f}), 7, 3e-3f) << "behind the bias";
+  EXPECT_EQ(s.distance({{}, {0, 0, 1}, 3.5f}), kInfinity) << "maxdist";
+  EXPECT_NEAR(s.transmission(Vec3(0.0f), {0, 0, 9})[0], .25f, 1e-5f);
+  EXPECT_NEAR(s.transmission(Vec3(0.0f), {0, 0, 6})[0], .5f, 1e-5f);
+}
+
+TEST(SolidRays, what_two_balls_have_in_common) {
+  RayScene s(solid("intersection", part("Sphere 1 -1 1 360") + part("Translate 0 0 1 Sphere 1 -1 1 360")));
+  EXPECT_NEAR(s.distance({}), 5, 3e-3f);
+  EXPECT_NEAR(s.distance({{0, 0, 5.5f}}), .5f, 3e-3f);
+  EXPECT_EQ(s.distance({{0.9f, 0, 0}}), kInfinity) << "the lens has a radius of sqrt(3/4)";
+  EXPECT_LT(s.distance({{0.85f, 0, 0}}), 6);
+}
+
+TEST(SolidRays, a_union_has_no_surface_inside) {
+  RayScene s(solid("union", part("Sphere 1 -1 1 360") + part("Translate 0 0 1 Sphere 1 -1 1 360")));
+  EXPECT_NEAR(s.distance({}), 4, 3e-3f);
+  EXPECT_NEAR(s.distance({{0, 0, 4.5f}}), 2.5f, 3e-3f);
+  EXPECT_NEAR(s.transmission(Vec3(0.0f), {0, 0, 9})[0], .25f, 1e-5f) << "in and out once";
+  slvm::RayCursor cursor;
+  std::vector<float> met;
+  for (int i = 0; i < 5; ++i)
+    if (float d = s.trace({TestRay{}}, {}, {}, &cursor)[0].distance; d < kInfinity) met.push_back(d);
+  EXPECT_THAT(met, ElementsAre(FloatNear(4, 3e-3f), FloatNear(7, 3e-3f))) << "traverse()";
+}
+
+TEST(SolidRays, what_cuts_need_not_be_seen) {
+  RayScene s(
+      solid("difference", part("Sphere 2 -2 2 360") +
+                              part("Attribute \"visibility\" \"trace\" 0 \"transmission\" \"transparent\" "
+                                   "Translate 0 0 -2 Sphere 1 -1 1 360")));
+  EXPECT_NEAR(s.distance({}), 4, 3e-3f);
 }
 
 } // namespace

@@ -97,6 +97,11 @@ TEST(Transmission, an_edge_between_faces_is_one_layer) {
              "-1 1 0 0 1 0 1 1 0] WorldEnd");
   expect_near(s.transmission({0, 0, -1}, {0, 0, 1}), Color(.5f));
   expect_near(s.transmission({0, .5f, -1}, {0, .5f, 1}), Color(.5f));
+  // Faces are two triangles to a ray.
+  RayScene diagonals(layers(3, "Opacity .5 .5 .5 Attribute \"visibility\" \"transmission\" \"Os\""));
+  expect_near(diagonals.transmission({0, 0, -1}, {0, 0, 1}), Color(.125f));
+  expect_near(diagonals.transmission({1, 1, -1}, {1, 1, 1}), Color(.125f));
+  expect_near(diagonals.transmission({1, -1, -1}, {1, -1, 1}), Color(.125f));
 }
 
 TEST(Transmission, too_many_layers_end) {
