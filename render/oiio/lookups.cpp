@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <set>
 
 namespace render::oiio {
 
@@ -18,17 +19,30 @@ using slvm::Value;
 
 namespace {
 
-/// OpenImageIO's texture system, owned.
+/// OpenImageIO's texture system with a cache of its own. Never destroyed, but used again: threads remember
+/// what they hold of a system by its address, and OpenImageIO 2.4 takes that of a destroyed one for that of a
+/// new one at the same place.
 class System {
 public:
-  explicit System(float memory_megabytes) : textures_(OIIO::TextureSystem::create(false)) {
-    textures_->attribute("automip", 1);   // ordinary images get their levels
-    textures_->attribute("autotile", 64); // and are kept in tiles
-    textures_->attribute("max_memory_MB", memory_megabytes);
+  System() : textures_(OIIO::TextureSystem::create(false)) {
+    textures_->attribute("automip", 1);     // ordinary images get their levels
+    textures_->attribute("autotile", 64);   // and are kept in tiles
     textures_->attribute("gray_to_rgb", 0); // absent channels are filled: RISpec 3.2, table 15.1
   }
-  ~System() { OIIO::TextureSystem::destroy(textures_, true); } // with its cache, which nobody shares
   System(const System&) = delete;
+
+  /// Forgets all files, which may have changed.
+  void forget() {
+    textures_->invalidate_all(true);
+    textures_->reset_stats();
+    files_.clear();
+  }
+  /// Counts a file that is used.
+  void use(const std::string& file) {
+    std::lock_guard lock(mutex_);
+    files_.insert(file);
+  }
+  size_t files() const { return files_.size(); }
 
   OIIO::TextureSystem* operator->() const { return textures_; }
 
@@ -46,8 +60,41 @@ public:
 private:
   std::mutex mutex_;
   std::map<std::string, std::string> problems_;
+  std::set<std::string> files_;
   OIIO::TextureSystem* textures_;
 };
+
+/// The systems that nobody uses at the moment.
+class Pool {
+public:
+  System* take(float memory_megabytes) {
+    System* out = nullptr;
+    {
+      std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        out = idle_.back();
+        idle_.pop_back();
+      }
+    }
+    if (!out) out = new System;
+    (*out)->attribute("max_memory_MB", memory_megabytes);
+    return out;
+  }
+  void give_back(System* system) {
+    system->forget();
+    std::lock_guard lock(mutex_);
+    idle_.push_back(system);
+  }
+
+private:
+  std::mutex mutex_;
+  std::vector<System*> idle_;
+};
+
+Pool& pool() {
+  static auto* the_pool = new Pool; // outlives all threads
+  return *the_pool;
+}
 
 /// A region of the map: its middle and how s and t change along its sides.
 struct Footprint {
@@ -98,6 +145,7 @@ std::string look_up(System& system, const std::string& file, const TextureLookup
   OIIO::TextureSystem::Perthread* thread = system->get_perthread_info();
   OIIO::TextureSystem::TextureHandle* map = system->get_texture_handle(OIIO::ustring(file), thread);
   if (!map || !system->good(map)) return system.problem(l.map);
+  system.use(file);
   const OIIO::TextureOpt plain = options_of(l);
   for (size_t i = 0; i < l.points; ++i) {
     if (!l.active(i)) continue;
@@ -158,7 +206,8 @@ Value matrix_value(const slvm::Matrix4& m) {
 
 class Lookups : public ImageLookups {
 public:
-  explicit Lookups(float memory_megabytes) : system_(memory_megabytes) {}
+  explicit Lookups(float memory_megabytes) : system_(*pool().take(memory_megabytes)) {}
+  ~Lookups() override { pool().give_back(&system_); }
 
   std::string texture(const std::string& file, const TextureLookup& l) override {
     return look_up(system_, file, l, OIIO::TextureOpt::WrapDefault, OIIO::TextureOpt::WrapDefault,
@@ -200,15 +249,13 @@ public:
   }
 
   std::pair<long long, long long> usage() override {
-    int files = 0;
     long long bytes = 0;
-    system_->getattribute("stat:unique_files", OIIO::TypeDesc::INT, &files);
     system_->getattribute("stat:cache_memory_used", OIIO::TypeDesc::INT64, &bytes);
-    return {files, bytes};
+    return {static_cast<long long>(system_.files()), bytes};
   }
 
 private:
-  System system_;
+  System& system_;
 };
 
 } // namespace

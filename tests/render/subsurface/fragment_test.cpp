@@ -112,7 +112,8 @@ TEST_F(Fragments, PointsAreKeptAndFacesTurnRound) {
   const auto& pref = param(calls[0], "ScatterPref").numbers;
   std::vector<float> face;
   for (int v : calls[0].integers(2).first(4))
-    face.insert(face.end(), {pref[3 * static_cast<size_t>(v)], pref[3 * static_cast<size_t>(v) + 1]});
+    for (size_t c = 0; c < 2; ++c)
+      face.push_back(pref[3 * static_cast<size_t>(v) + c]);
   EXPECT_THAT(face, ElementsAre(1, 1, 1, 2, 2, 2, 2, 1)); // was 1 1, 2 1, 2 2, 1 2
 }
 
