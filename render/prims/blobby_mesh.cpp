@@ -1,6 +1,7 @@
 // Blobbies as quadrilaterals, by surface nets (Gibson 1998): one vertex in each cell of a lattice that the
 // surface passes through, moved onto the surface; one quadrilateral across each lattice edge that crosses it.
 #include "render/prims/blobby.h"
+#include "render/prims/mesh_pieces.h"
 #include "render/prims/patches.h"
 #include "render/prims/typed_vars.h"
 
@@ -12,30 +13,86 @@ namespace {
 
 using Vec3d = glm::dvec3;
 
+/// The net: vertices, and quadrilaterals of them, corners as those of a bilinear patch.
+struct Net {
+  std::vector<Vec3> P, N;
+  std::vector<std::vector<float>> values; ///< of each variable that interpolates, vertex by vertex
+  std::vector<std::array<uint32_t, 4>> quads;
+};
+
+class BlobbyMesh;
+
 /// A bilinear patch with the normals of the smooth surface it stands for.
 class SmoothQuad final : public Geometry {
 public:
-  SmoothQuad(const std::array<Vec3, 4>& points, const std::array<Vec3, 4>& normals)
-      : flat_(points), normals_(normals) {}
-  Box bound(const UvRect& r) const override { return flat_.bound(r); }
+  SmoothQuad(const BlobbyMesh& mesh, uint32_t quad) : mesh_(&mesh), quad_(quad) {}
+  Box bound(const UvRect& r) const override { return flat().bound(r); }
   bool ruled() const override { return true; }
-  void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
-    flat_.evaluate(at, out);
-    at.for_each([&](size_t k, float a, float b) {
-      out.N[k] =
-          (normals_[0] * (1 - a) + normals_[1] * a) * (1 - b) + (normals_[2] * (1 - a) + normals_[3] * a) * b;
-    });
+  void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
+
+private:
+  BilinearPatch flat() const;
+
+  const BlobbyMesh* mesh_;
+  uint32_t quad_;
+};
+
+class BlobbyMesh final : public VarSource {
+public:
+  BlobbyMesh(Net net, std::span<const TypedParam> vars)
+      : net_(std::move(net)), vars_(vars.begin(), vars.end()) {
+    patches_.reserve(net_.quads.size());
+    for (uint32_t k = 0; k < net_.quads.size(); ++k)
+      patches_.emplace_back(*this, k);
+  }
+  std::span<const SmoothQuad> patches() const { return patches_; }
+  std::array<Vec3, 4> corners(const std::vector<Vec3>& of, uint32_t quad) const {
+    const auto& q = net_.quads[quad];
+    return {of[q[0]], of[q[1]], of[q[2]], of[q[3]]};
+  }
+  std::array<Vec3, 4> points(uint32_t quad) const { return corners(net_.P, quad); }
+  std::array<Vec3, 4> normals(uint32_t quad) const { return corners(net_.N, quad); }
+
+  size_t count() const override { return vars_.size(); }
+  bool differs_by_piece() const override { return false; } // one value for the whole Blobby
+  PatchVar make(size_t index, uint32_t piece) const override {
+    const TypedParam& source = vars_[index];
+    if (!interpolates(source.declaration.storage)) return constant_var(source, 0);
+    PatchVar var = var_head(source);
+    var.interpolation = Interpolation::kBilinear;
+    for (uint32_t vertex : net_.quads[piece]) {
+      auto first = net_.values[index].begin() + static_cast<std::ptrdiff_t>(vertex * var.width());
+      var.values.insert(var.values.end(), first, first + static_cast<std::ptrdiff_t>(var.width()));
+    }
+    return var;
   }
 
 private:
-  BilinearPatch flat_;
-  std::array<Vec3, 4> normals_;
+  Net net_;
+  std::vector<TypedParam> vars_;
+  std::vector<SmoothQuad> patches_;
 };
+
+BilinearPatch SmoothQuad::flat() const {
+  return BilinearPatch(mesh_->points(quad_));
+}
+
+void SmoothQuad::evaluate(const UvPoints& at, SurfaceLattice& out) const {
+  flat().evaluate(at, out);
+  const std::array<Vec3, 4> n = mesh_->normals(quad_);
+  at.for_each([&](size_t k, float a, float b) {
+    out.N[k] = (n[0] * (1 - a) + n[1] * a) * (1 - b) + (n[2] * (1 - a) + n[3] * a) * b;
+  });
+}
 
 class NetMaker {
 public:
   NetMaker(const BlobbyField& field, float wanted, std::span<const TypedParam> vars)
-      : field_(field), vars_(vars) {
+      : field_(field), leaf_values_(vars.size()), shares_(vars.empty() ? 0 : field.leaves()) {
+    for (size_t v = 0; v < vars.size(); ++v)
+      for (size_t i = 0; i < field.leaves() && interpolates(vars[v].declaration.storage); ++i)
+        append_value(vars[v], i, leaf_values_[v]);
+    net_.values.resize(vars.size());
     Box box = field.bound();
     Vec3d size(box.max - box.min);
     constexpr double kMostAcross = 24, kFewestAcross = 12, kMostWork = 3e8, kMostCells = 6e6;
@@ -51,22 +108,19 @@ public:
       n_[c] = static_cast<size_t>(std::ceil(size[c] / cell_)) + 4;
   }
 
-  void run(const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
+  Net run() {
     sample();
     place_vertices();
     for (size_t k = 1; k + 1 < n_[2]; ++k)
       for (size_t j = 1; j + 1 < n_[1]; ++j)
         for (size_t i = 1; i + 1 < n_[0]; ++i)
           for (int axis = 0; axis < 3; ++axis)
-            add_quad({i, j, k}, axis, state, out);
+            add_quad({i, j, k}, axis);
+    return std::move(net_);
   }
 
 private:
   static constexpr double kOnSurface = 1e-3; ///< difference of fields that does not show
-  struct Vertex {
-    Vec3 P, N;
-    std::vector<double> shares; ///< of the leaves; they add up to 1
-  };
   using Place = std::array<size_t, 3>;
 
   size_t index(const Place& p) const { return (p[2] * n_[1] + p[1]) * n_[0] + p[0]; }
@@ -123,8 +177,8 @@ private:
           ++crossings;
         }
       if (crossings == 0) return;
-      vertex_of_[index(p)] = static_cast<int>(vertices_.size());
-      vertices_.push_back(vertex(part, sum / static_cast<double>(crossings)));
+      vertex_of_[index(p)] = static_cast<int>(net_.P.size());
+      add_vertex(part, sum / static_cast<double>(crossings));
     });
   }
 
@@ -144,7 +198,7 @@ private:
   }
 
   /// Moves a point onto the surface, by at most a cell.
-  Vertex vertex(const BlobbyField& field, Vec3d start) const {
+  void add_vertex(const BlobbyField& field, Vec3d start) {
     double step = 1e-3 * cell_;
     Vec3d p = start;
     for (int i = 0; i < 4; ++i) {
@@ -156,64 +210,51 @@ private:
       p = next;
     }
     if (std::abs(field.at(p) - BlobbyField::kThreshold) > kOnSurface) p = bisected(field, start, p);
-    Vertex out{Vec3(p), Vec3(field.outwards(p, step)), {}};
-    if (vars_.empty()) return out;
-    out.shares.resize(field_.leaves());
-    field_.shares(p, out.shares);
-    return out;
+    net_.P.emplace_back(p);
+    net_.N.emplace_back(field.outwards(p, step));
+    if (!shares_.empty()) mix(p);
+  }
+
+  /// The values of the variables at a vertex: those of the leaves, by their shares in the field.
+  void mix(Vec3d p) {
+    field_.shares(p, shares_);
+    for (size_t v = 0; v < leaf_values_.size(); ++v) {
+      size_t width = leaf_values_[v].size() / shares_.size();
+      for (size_t c = 0; c < width; ++c) {
+        double sum = 0;
+        for (size_t i = 0; i < shares_.size(); ++i)
+          sum += shares_[i] * static_cast<double>(leaf_values_[v][i * width + c]);
+        net_.values[v].push_back(static_cast<float>(sum));
+      }
+    }
   }
 
   /// The quadrilateral across the edge from `p` along `axis`; its outside is where the field is low.
-  void add_quad(const Place& p, int axis, const std::shared_ptr<const PrimitiveState>& state,
-                std::vector<Primitive>& out) const {
+  void add_quad(const Place& p, int axis) {
     Place end = p;
     ++end[static_cast<size_t>(axis)];
     bool inside = samples_[index(p)] > 0;
     if (inside == (samples_[index(end)] > 0)) return;
     auto u = static_cast<size_t>((axis + 1) % 3), v = static_cast<size_t>((axis + 2) % 3);
     if (!inside) std::swap(u, v);
-    std::array<const Vertex*, 4> corners{};
+    std::array<uint32_t, 4>& corners = net_.quads.emplace_back();
     for (size_t c = 0; c < 4; ++c) {
       Place cell = p;
       cell[u] -= c & 1 ? 0 : 1;
       cell[v] -= c & 2 ? 0 : 1;
-      corners[c] = &vertices_[static_cast<size_t>(vertex_of_[index(cell)])];
+      corners[c] = static_cast<uint32_t>(vertex_of_[index(cell)]);
     }
-    Primitive& primitive = out.emplace_back();
-    primitive.state = state;
-    primitive.geometry =
-        std::make_shared<SmoothQuad>(std::array{corners[0]->P, corners[1]->P, corners[2]->P, corners[3]->P},
-                                     std::array{corners[0]->N, corners[1]->N, corners[2]->N, corners[3]->N});
-    for (const TypedParam& var : vars_)
-      primitive.vars.push_back(mixed(var, corners));
-  }
-
-  PatchVar mixed(const TypedParam& source, const std::array<const Vertex*, 4>& corners) const {
-    if (!interpolates(source.declaration.storage)) return constant_var(source, 0);
-    PatchVar var = var_head(source);
-    var.interpolation = Interpolation::kBilinear;
-    std::vector<float> values;
-    size_t width = var.width();
-    for (size_t i = 0; i < field_.leaves(); ++i)
-      append_value(source, i, values);
-    for (const Vertex* v : corners)
-      for (size_t c = 0; c < width; ++c) {
-        double sum = 0;
-        for (size_t i = 0; i < field_.leaves(); ++i)
-          sum += v->shares[i] * static_cast<double>(values[i * width + c]);
-        var.values.push_back(static_cast<float>(sum));
-      }
-    return var;
   }
 
   const BlobbyField& field_;
-  std::span<const TypedParam> vars_;
+  std::vector<std::vector<float>> leaf_values_; ///< of each variable that interpolates, leaf by leaf
+  std::vector<double> shares_;                  ///< of the leaves in a point; they add up to 1
   double cell_ = 1;
   Vec3d origin_{0.0};
   std::array<size_t, 3> n_{};
   std::vector<float> samples_;
   std::vector<int> vertex_of_;
-  std::vector<Vertex> vertices_;
+  Net net_;
 };
 
 } // namespace
@@ -221,7 +262,7 @@ private:
 void add_blobby(const BlobbyField& field, float wanted, std::span<const TypedParam> vars,
                 const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
   if (field.bound().empty()) return; // constants only: no surface anywhere
-  NetMaker(field, wanted, vars).run(state, out);
+  add_pieces(std::make_shared<BlobbyMesh>(NetMaker(field, wanted, vars).run(), vars), state, out);
 }
 
 } // namespace render

@@ -7,7 +7,8 @@ namespace {
 
 /// Of a task that is worth joining to others, and of what comes of it.
 constexpr int kSmall = 25, kMostPoints = 256;
-/// Pixels that a joined grid may be wide and high: it is shaded as a whole, also where it is hidden.
+/// Pixels that a joined grid may be wider and higher than its pieces, whose bounds for displacement may be
+/// wide already: it is shaded as a whole, also where it is hidden.
 constexpr float kMostPixels = 32;
 /// Pieces of one grid have lattices of one size: how many times the points they need they may have.
 constexpr float kMostWaste = 1.7f;
@@ -27,6 +28,12 @@ bool fit(const Primitive& a, const Primitive& b) {
   return a.state == b.state && a.vars.source() == b.vars.source() && a.one_across == b.one_across;
 }
 
+/// Whether a grid of this size would still be about where the task is.
+bool is_near(Vec2 size, const GridTask& task) {
+  Vec2 own = task.raster_max - task.raster_min;
+  return size.x <= own.x + kMostPixels && size.y <= own.y + kMostPixels;
+}
+
 } // namespace
 
 void join_tasks(std::span<const Primitive> primitives, std::vector<GridTask>& tasks) {
@@ -44,7 +51,7 @@ void join_tasks(std::span<const Primitive> primitives, std::vector<GridTask>& ta
       int points = static_cast<int>(run.pieces + 1) * nu * nv;
       float both = wanted + static_cast<float>(task.nu * task.nv);
       bool room = points <= kMostPoints && static_cast<float>(points) <= kMostWaste * both &&
-                  high.x - low.x <= kMostPixels && high.y - low.y <= kMostPixels;
+                  is_near(high - low, task);
       if (room && task.primitive == run.primitive + run.pieces && task.step == run.step &&
           fit(primitives[run.primitive], primitive)) {
         ++run.pieces;
