@@ -54,7 +54,7 @@ ALLOWED = {
 OUTSIDE = {
     r"embree[34]/": ["render/rays", "tests/bench"],
     r"OpenImageIO/": ["render/oiio", "tests/render", "slvm/tools/sltest"],
-    r"(?:tiffio|png)\.h": ["render/texture", "stdlib/dso"],
+    r"(?:tiffio|png)\.h": ["render/texture", "slvm/support/tiff_open"],
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
     r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_hits", "render/hider/window_weights", "tests/bench", "tests/unit/kernels"],

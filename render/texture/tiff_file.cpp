@@ -3,7 +3,7 @@
 #include "render/texture/depth_image.h"
 #include "render/texture/image_file.h"
 
-#include <tiffio.h>
+#include "slvm/support/tiff_open.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -15,33 +15,8 @@ namespace render {
 namespace {
 
 using Messages = std::string;
-
-/// libtiff's message goes to the text given with the options, never to the terminal.
-int keep_message(TIFF*, void* text, const char*, const char* format, va_list arguments) {
-  char line[512];
-  std::vsnprintf(line, sizeof line, format, arguments);
-  auto& messages = *static_cast<Messages*>(text);
-  if (messages.empty()) messages = line;
-  return 1;
-}
-int no_message(TIFF*, void*, const char*, const char*, va_list) {
-  return 1;
-}
-
-struct Close {
-  void operator()(TIFF* t) const { TIFFClose(t); }
-};
-using File = std::unique_ptr<TIFF, Close>;
-
-File open(const std::string& path, const char* mode, Messages& messages) {
-  TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
-  if (!options) return nullptr;
-  TIFFOpenOptionsSetErrorHandlerExtR(options, keep_message, &messages);
-  TIFFOpenOptionsSetWarningHandlerExtR(options, no_message, nullptr);
-  File file(TIFFOpenExt(path.c_str(), mode, options));
-  TIFFOpenOptionsFree(options);
-  return file;
-}
+using File = slvm::TiffFile;
+using slvm::open_tiff;
 
 const std::map<std::string, uint16_t>& compressions() {
   static const std::map<std::string, uint16_t> kNames = {{"", COMPRESSION_ADOBE_DEFLATE},
@@ -164,7 +139,7 @@ bool tiff_compresses(const std::string& name) {
 
 std::string write_tiff(const ImageFile& image) {
   Messages messages;
-  File file = open(image.path, "w", messages);
+  File file = open_tiff(image.path, "w", messages);
   bool written = false;
   if (file) {
     set_fields(file.get(), image);
@@ -177,7 +152,7 @@ std::string write_tiff(const ImageFile& image) {
 
 bool read_depth_tiff(const std::string& path, DepthImage& out) {
   Messages messages;
-  File file = open(path, "r", messages);
+  File file = open_tiff(path, "r", messages);
   if (!file) return false;
   TIFF* t = file.get();
   uint32_t width = 0, height = 0;

@@ -86,6 +86,20 @@ bool in_range(float index, const PointCache& cache) {
   return index >= 0 && index < static_cast<float>(cache.size());
 }
 
+/// What `get` tells of the points of an index, zero of those that there are not.
+template <class Iterator>
+int read_points(RslContext& context, int argc, const RslArg* argv[], const char* call,
+                subsurface::Vec3 (PointCache::*get)(size_t) const) {
+  Iterator result(argv[0]);
+  RslFloatIter index(argv[1]);
+  Lighting* lighting = opened(context, call);
+  for (unsigned int i = 0; i < RslArg::NumValues(argc, argv); ++i, ++result, ++index) {
+    bool known = lighting && in_range(*index, lighting->cache());
+    store(known ? (lighting->cache().*get)(static_cast<size_t>(*index)) : subsurface::Vec3{}, *result);
+  }
+  return 0;
+}
+
 } // namespace
 
 int open_cache(RslContext* context, int, const RslArg* argv[]) {
@@ -114,27 +128,11 @@ int next_index(RslContext* context, int, const RslArg* argv[]) {
 }
 
 int get_position(RslContext* context, int argc, const RslArg* argv[]) {
-  RslPointIter result(argv[0]);
-  RslFloatIter index(argv[1]);
-  Lighting* lighting = opened(*context, "getPcache()");
-  for (unsigned int i = 0; i < RslArg::NumValues(argc, argv); ++i, ++result, ++index)
-    store(lighting && in_range(*index, lighting->cache())
-              ? lighting->cache().position(static_cast<size_t>(*index))
-              : subsurface::Vec3{},
-          *result);
-  return 0;
+  return read_points<RslPointIter>(*context, argc, argv, "getPcache()", &PointCache::position);
 }
 
 int get_normal(RslContext* context, int argc, const RslArg* argv[]) {
-  RslNormalIter result(argv[0]);
-  RslFloatIter index(argv[1]);
-  Lighting* lighting = opened(*context, "getNcache()");
-  for (unsigned int i = 0; i < RslArg::NumValues(argc, argv); ++i, ++result, ++index)
-    store(lighting && in_range(*index, lighting->cache())
-              ? lighting->cache().normal(static_cast<size_t>(*index))
-              : subsurface::Vec3{},
-          *result);
-  return 0;
+  return read_points<RslNormalIter>(*context, argc, argv, "getNcache()", &PointCache::normal);
 }
 
 int accumulate(RslContext* context, int argc, const RslArg* argv[]) {

@@ -1,33 +1,14 @@
 #include "stdlib/dso/scatter_images.h"
 
+#include "slvm/support/tiff_open.h"
 #include "stdlib/subsurface/scatter_map.h"
 
-#include <tiffio.h>
-
-#include <cstdio>
 #include <fmt/format.h>
-#include <memory>
 
 namespace subsurface_plugin {
 namespace {
 
 constexpr size_t kMostPixels = size_t{1} << 28;
-
-/// libtiff's message goes to the text given with the options, never to the terminal.
-int keep_message(TIFF*, void* text, const char*, const char* format, va_list arguments) {
-  char line[512];
-  std::vsnprintf(line, sizeof line, format, arguments);
-  auto& message = *static_cast<std::string*>(text);
-  if (message.empty()) message = line;
-  return 1;
-}
-int no_message(TIFF*, void*, const char*, const char*, va_list) {
-  return 1;
-}
-
-struct Close {
-  void operator()(TIFF* t) const { TIFFClose(t); }
-};
 
 struct Image {
   size_t width = 0, height = 0, channels = 0;
@@ -72,11 +53,7 @@ bool read_rows(TIFF* t, Image& image) {
 slvm::Result<Image> read_image(const std::string& path, size_t channels) {
   std::string message;
   auto error = [&](const std::string& text) { return slvm::Error{fmt::format("{}: {}", path, text)}; };
-  std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
-                                                                       TIFFOpenOptionsFree);
-  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_message, &message);
-  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), no_message, nullptr);
-  std::unique_ptr<TIFF, Close> file(TIFFOpenExt(path.c_str(), "r", options.get()));
+  const slvm::TiffFile file = slvm::open_tiff(path, "r", message);
   if (!file) return error(message.empty() ? "it cannot be read" : message);
   TIFF* t = file.get();
   uint32_t width = 0, height = 0;

@@ -24,6 +24,11 @@ float diffusionradius(float xi) {
   return max(r, 0);
 }
 
+/* A unit vector across one of unit length. */
+vector axisacross(vector along) {
+  return normalize(along ^ (abs(xcomp(along)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0)));
+}
+
 /* Sample i of so many: an offset in the plane of two axes, its length is r. Neighbours in number lie a golden angle apart. */
 vector diffusionplace(uniform float i; uniform float samples; float turn; vector base1; vector base2; output float r) {
   float angle = turn + i * 2.3999632;
@@ -94,8 +99,7 @@ color lightat(point Pi; normal Ni) {
 color diffusionscattering(point P; normal Nn; color albedo; color freepath; float eta; uniform float samples; uniform string subset;
                           uniform string map) {
   float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
-  vector up = abs(xcomp(Nn)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0);
-  vector base1 = normalize(Nn ^ up), base2 = base1 ^ Nn;
+  vector base1 = axisacross(vector Nn), base2 = base1 ^ Nn;
   float turn = 2 * PI * random();
   uniform float i;
   color sum = 0;
@@ -195,8 +199,7 @@ color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; 
                                uniform string inner; float soft) {
   vector toLight = normalize(L);
   float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
-  vector up = abs(xcomp(toLight)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0);
-  vector base1 = normalize(toLight ^ up), base2 = base1 ^ toLight;
+  vector base1 = axisacross(toLight), base2 = base1 ^ toLight;
   float turn = 2 * PI * random();
   uniform float i;
   color sum = 0;
