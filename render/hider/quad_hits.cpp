@@ -5,6 +5,8 @@
 #define HWY_TARGET_INCLUDE "render/hider/quad_hits.cpp"
 #include <hwy/foreach_target.h>
 
+#include "slvm/wide/targets.h"
+
 #include <hwy/highway.h>
 
 #include <bit>
@@ -82,9 +84,10 @@ private:
   HWY_INLINE void add(M inside, I samples, QuadPart part, const Corners& areas, const Corners& depths) {
     V a = hn::Abs(areas.a), b = hn::Abs(areas.b), c = hn::Abs(areas.c);
     V sum = hn::Add(hn::Add(a, b), c);
-    a = hn::Div(a, sum);
-    b = hn::Div(b, sum);
-    c = hn::Div(c, sum);
+    V scale = hn::Div(hn::Set(kWide, 1.0f), sum);
+    a = hn::Mul(a, scale);
+    b = hn::Mul(b, scale);
+    c = hn::Mul(c, scale);
     // Differences, so that equal depths stay exactly what they are.
     V z = hn::Add(hn::Add(depths.a, hn::Mul(hn::Sub(depths.b, depths.a), b)),
                   hn::Mul(hn::Sub(depths.c, depths.a), c));
@@ -125,6 +128,36 @@ struct WideBox {
   }
 };
 
+#if HWY_TARGET != HWY_SCALAR
+constexpr hn::Half<decltype(kWide)> kHalf;
+constexpr size_t kHalfLanes = hn::MaxLanes(kHalf);
+
+/// For windows so narrow that two rows fit into a vector, as those of most micropolygons are.
+HWY_INLINE void find_in_pairs_of_rows(const WideQuad& quad, const WideBox& box, const SampleField& field,
+                                      const SampleWindow& window, Finder& finder) {
+  const size_t columns = window.i1 - window.i0;
+  constexpr auto kRow = static_cast<int32_t>(kHalfLanes);
+  const I lanes = hn::Iota(kIndices, 0), upper = hn::Set(kIndices, kRow - 1);
+  const auto in_upper = hn::Gt(lanes, upper);
+  const I column = hn::Sub(lanes, hn::IfThenElseZero(in_upper, hn::Set(kIndices, kRow)));
+  const auto in_window = hn::Lt(column, hn::Set(kIndices, static_cast<int32_t>(columns)));
+  const I offset =
+      hn::Add(column, hn::IfThenElseZero(in_upper, hn::Set(kIndices, static_cast<int32_t>(field.width))));
+  for (size_t j = window.j0; j < window.j1; j += 2) {
+    const bool two = j + 1 < window.j1;
+    const size_t k = j * field.width + window.i0, next = two ? k + field.width : k;
+    auto rows = [&](const float* of) {
+      return hn::Combine(kWide, hn::LoadU(kHalf, of + next), hn::LoadU(kHalf, of + k));
+    };
+    const WideVec2 at{rows(field.x), rows(field.y)};
+    M looked_at = hn::And(box.contains(at), hn::RebindMask(kWide, in_window));
+    if (!two) looked_at = hn::And(looked_at, hn::FirstN(kWide, kHalfLanes));
+    if (hn::AllFalse(kWide, looked_at)) continue;
+    finder.find(quad, at, looked_at, hn::Add(hn::Set(kIndices, static_cast<int32_t>(k)), offset));
+  }
+}
+#endif
+
 size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const SampleWindow& window,
                   QuadHit* hits) {
   WideBox box(glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3]))),
@@ -137,6 +170,12 @@ size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const
   }
   WideQuad quad(corners, depths);
   Finder finder(both, field.limit, hits);
+#if HWY_TARGET != HWY_SCALAR
+  if (window.i1 - window.i0 <= kHalfLanes) {
+    find_in_pairs_of_rows(quad, box, field, window, finder);
+    return finder.count();
+  }
+#endif
   for (size_t j = window.j0; j < window.j1; ++j)
     for (size_t i = window.i0; i < window.i1; i += hn::Lanes(kWide)) {
       size_t k = j * field.width + i;
@@ -193,17 +232,17 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace render {
-HWY_EXPORT(find_still);
-HWY_EXPORT(find_moving);
+const auto kFindStill = SL_BEST(find_still);
+const auto kFindMoving = SL_BEST(find_moving);
 
 size_t quad_hits(const Vec3 (&p)[4], bool both, const SampleField& field, const SampleWindow& window,
                  QuadHit* hits) {
-  return HWY_DYNAMIC_DISPATCH(find_still)(p, both, field, window, hits);
+  return kFindStill(p, both, field, window, hits);
 }
 
 size_t moving_hits(const MovingQuad& quad, bool both, const SampleField& field, const uint32_t* order,
                    size_t columns, const SampleWindow& window, QuadHit* hits) {
-  return HWY_DYNAMIC_DISPATCH(find_moving)(quad, both, field, order, columns, window, hits);
+  return kFindMoving(quad, both, field, order, columns, window, hits);
 }
 
 } // namespace render

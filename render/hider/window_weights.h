@@ -22,9 +22,11 @@ private:
   /// 1e-5 off for smooth filters.
   using AxisTable = std::array<float, kSteps + 2>;
   AxisTable axis_table(float width) const;
+  static void pack(const float* samples, size_t width, const SampleWindow& window, std::vector<float>& out);
 
   PixelFilter filter_;
   AxisTable x_{}, y_{};
+  std::vector<float> at_x_, at_y_; ///< of the samples in the window
   std::vector<float> weights_;
 };
 

@@ -2,10 +2,9 @@
 #include "slvm/kernels/table.h"
 
 #include "slvm/kernels/strings.h"
+#include "slvm/wide/targets.h"
 
 #include <array>
-
-#include <hwy/highway.h>
 
 // Runs of the list of families: X(function) for each. A new family is one line here and one in
 // CMakeLists.txt.
@@ -19,39 +18,6 @@
   X(fill_random)                                                                                             \
   X(fill_spline)                                                                                             \
   X(fill_string)
-
-// Runs of the list of targets: X(target, namespace, name) for each this build has code for.
-#if HWY_TARGETS & HWY_AVX3
-#define SL_AVX3(X) X(HWY_AVX3, N_AVX3, "AVX3")
-#else
-#define SL_AVX3(X)
-#endif
-#if HWY_TARGETS & HWY_AVX2
-#define SL_AVX2(X) X(HWY_AVX2, N_AVX2, "AVX2")
-#else
-#define SL_AVX2(X)
-#endif
-#if HWY_TARGETS & HWY_SSE4
-#define SL_SSE4(X) X(HWY_SSE4, N_SSE4, "SSE4")
-#else
-#define SL_SSE4(X)
-#endif
-#if HWY_TARGETS & HWY_NEON
-#define SL_NEON(X) X(HWY_NEON, N_NEON, "NEON")
-#else
-#define SL_NEON(X)
-#endif
-#if HWY_TARGETS & HWY_EMU128
-#define SL_EMU128(X) X(HWY_EMU128, N_EMU128, "EMU128")
-#else
-#define SL_EMU128(X)
-#endif
-#if HWY_TARGETS & HWY_SCALAR
-#define SL_SCALAR(X) X(HWY_SCALAR, N_SCALAR, "SCALAR")
-#else
-#define SL_SCALAR(X)
-#endif
-#define SL_TARGETS(X) SL_AVX3(X) SL_AVX2(X) SL_SSE4(X) SL_NEON(X) SL_EMU128(X) SL_SCALAR(X)
 
 namespace slvm {
 
@@ -88,8 +54,9 @@ struct Tables {
   std::array<const char*, kTargetCount> name{};
 
   Tables() {
+    const int64_t supported = supported_targets();
     for (const Target& target : kTargets) {
-      if ((hwy::SupportedTargets() & target.bit) == 0) continue;
+      if ((supported & target.bit) == 0) continue;
       target.fill(table[count]);
       table[count].target = name[count] = target.name;
       ++count;

@@ -6,6 +6,7 @@
 #include <hwy/foreach_target.h>
 
 #include "slvm/kernels/gradient_noise.h"
+#include "slvm/wide/targets.h"
 #include "slvm/wide/transcendental.h"
 #include "slvm/wide/wide.h"
 
@@ -140,22 +141,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace bench {
 
-HWY_EXPORT(plastic);
-HWY_EXPORT(fbm);
-HWY_EXPORT(marble);
-HWY_EXPORT(divergent);
+const auto kPlastic = SL_BEST(plastic);
+const auto kFbm = SL_BEST(fbm);
+const auto kMarble = SL_BEST(marble);
+const auto kDivergent = SL_BEST(divergent);
 
 void plastic_by_hand(const Points& points, const Lights& lights) {
-  HWY_DYNAMIC_DISPATCH(plastic)(points, lights);
+  kPlastic(points, lights);
 }
 void fbm_by_hand(const Points& points) {
-  HWY_DYNAMIC_DISPATCH(fbm)(points);
+  kFbm(points);
 }
 void marble_by_hand(const Points& points) {
-  HWY_DYNAMIC_DISPATCH(marble)(points);
+  kMarble(points);
 }
 void divergent_by_hand(const Points& points) {
-  HWY_DYNAMIC_DISPATCH(divergent)(points);
+  kDivergent(points);
 }
 
 } // namespace bench
