@@ -74,6 +74,8 @@ private:
   void split_all();
   void make_buckets();
   void render_bucket(int i, int j, Worker& worker);
+  /// What comes after the filter.
+  void finish_bucket(const PixelRect& rect, Worker& worker);
   const ShadedGrid* shaded(TaskBatch& batch, uint32_t task, Worker& worker);
   std::unique_ptr<const ShadedGrid> shade(const TaskBatch& batch, uint32_t task, Worker& worker);
   /// Pixels of the frame to pixels of the image, which are samples when "subpixel" is asked for.
@@ -212,7 +214,12 @@ void FrameRenderer::make_buckets() {
 
 void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
   Bucket& bucket = buckets_[static_cast<size_t>(j * layout_.columns + i)];
-  PixelRect pixels = layout_.rect(i, j);
+  PixelRect pixels = layout_.rect(i, j), rect = image_rect(pixels);
+  if (bucket.tasks.empty() && bucket.procedurals.empty()) {
+    clear(sampling_.reconstruction, rect, image_);
+    finish_bucket(rect, worker);
+    return;
+  }
   if (!worker.samples) worker.samples = std::make_unique<SampleBuffer>(sampling_);
   SampleBuffer& samples = *worker.samples;
   samples.begin(pixels);
@@ -237,7 +244,10 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
   for (auto lazy = opened.rbegin(); lazy != opened.rend(); ++lazy)
     content_.leave(**lazy, i, j, true);
   samples.finish(image_);
-  PixelRect rect = image_rect(pixels);
+  finish_bucket(rect, worker);
+}
+
+void FrameRenderer::finish_bucket(const PixelRect& rect, Worker& worker) {
   expose(rect);
   if (options_.imager)
     for (const Picture& p : pictures())

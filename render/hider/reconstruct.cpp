@@ -2,8 +2,6 @@
 // bucket that makes it.
 #include "render/hider/reconstruct.h"
 
-#include "render/hider/window_weights.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,13 +13,6 @@ int margin(float width) {
   return std::max(0, static_cast<int>(std::ceil(width / 2 - 0.5f)));
 }
 
-/// Values that go through one filter: where they are among those of a sample, and where in a pixel.
-struct Term {
-  const float* samples;
-  size_t stride;
-  int count, to;
-};
-
 /// The cells, of `density` a pixel, that have points less than half a width from `centre`.
 void reach(float centre, float width, int density, int cells, size_t& from, size_t& to) {
   auto d = static_cast<float>(density);
@@ -29,82 +20,39 @@ void reach(float centre, float width, int density, int cells, size_t& from, size
   to = static_cast<size_t>(std::clamp(std::ceil((centre + width / 2) * d), 0.0f, static_cast<float>(cells)));
 }
 
-class Reconstruction {
-public:
-  Reconstruction(const ReconstructionSettings& settings, const SampleGridSize& size, PixelRect rect,
-                 PixelRect covered, const SamplePattern& pattern, std::span<const SampleResult> results,
-                 std::span<const float> aov, Image& image)
-      : settings_(settings), size_(size), rect_(rect), covered_(covered), pattern_(pattern),
-        results_(results), aov_(aov), image_(image) {}
-
-  void run();
-
-private:
-  void add_aovs();
-  struct Plan {
-    PixelFilter filter;
-    std::vector<Term> terms;
-  };
-  /// `standard`: the image's first channels, too. That of z is written over later.
-  template <bool standard> void filter(const Plan& plan);
-  void add(const Plan& plan, size_t sample, float weight, float* pixel) const;
-  template <bool standard> void plain_mean(const Plan& plan, int x, int y);
-  float depth(int x, int y) const;
-  void copy_samples();
-  size_t sample(int x, int y, int i, int j) const {
-    int row = (y - covered_.y0) * size_.ysamples + j, column = (x - covered_.x0) * size_.xsamples + i;
-    return static_cast<size_t>(row) * static_cast<size_t>(pattern_.width()) + static_cast<size_t>(column);
-  }
-
-  const ReconstructionSettings& settings_;
-  const SampleGridSize& size_;
-  PixelRect rect_, covered_;
-  const SamplePattern& pattern_;
-  std::span<const SampleResult> results_;
-  std::span<const float> aov_;
-  Image& image_;
-  std::vector<Plan> plans_;
-};
-
-void Reconstruction::run() {
-  plans_.push_back({settings_.filter, {}});
-  add_aovs();
-  if (settings_.subpixel) {
-    copy_samples();
-    return;
-  }
-  for (int y = rect_.y0; y < rect_.y1; ++y)
-    for (int x = rect_.x0; x < rect_.x1; ++x)
-      std::fill_n(image_.pixel(x, y), image_.channels, 0.0f);
-  filter<true>(plans_[0]);
-  for (size_t i = 1; i < plans_.size(); ++i)
-    filter<false>(plans_[i]);
-  for (int y = rect_.y0; y < rect_.y1; ++y)
-    for (int x = rect_.x0; x < rect_.x1; ++x)
-      image_.pixel(x, y)[Image::kZ] = depth(x, y);
-  for (const AovChannel& a : settings_.aovs)
-    if (a.source == AovChannel::Source::kDepth)
-      for (int y = rect_.y0; y < rect_.y1; ++y)
-        for (int x = rect_.x0; x < rect_.x1; ++x)
-          image_.pixel(x, y)[Image::kAov + a.first] = image_.pixel(x, y)[Image::kZ];
+/// What holds all of the rows from j0 to before j1.
+SampleSpan filled(const BucketSamples& samples, size_t j0, size_t j1) {
+  SampleSpan out;
+  for (size_t j = j0; j < j1; ++j)
+    out.add(samples.filled[j]);
+  return out;
 }
 
-void Reconstruction::add_aovs() {
+} // namespace
+
+Reconstructor::Reconstructor(const ReconstructionSettings& settings, const SampleGridSize& size)
+    : settings_(settings), size_(size) {
+  plans_.push_back({settings_.filter, WindowWeights(settings_.filter), {}});
+  plan_aovs();
+}
+
+void Reconstructor::plan_aovs() {
   constexpr size_t kStride = sizeof(SampleResult) / sizeof(float);
   using Source = AovChannel::Source;
   for (const AovChannel& a : settings_.aovs) {
-    Term term{nullptr, kStride, a.components, Image::kAov + a.first};
+    Term term{false, 0, kStride, a.components, Image::kAov + a.first};
     switch (a.source) {
     case Source::kVariable:
-      term.samples = aov_.data() + a.first;
+      term.variable = true;
+      term.first = static_cast<size_t>(a.first);
       term.stride = settings_.aov_floats();
       break;
-    case Source::kColor: term.samples = results_[0].channels; break;
-    case Source::kOpacity: term.samples = results_[0].channels + Image::kOi; break;
-    case Source::kAlpha: term.samples = results_[0].channels + Image::kAlpha; break;
+    case Source::kColor: term.first = Image::kCi; break;
+    case Source::kOpacity: term.first = Image::kOi; break;
+    case Source::kAlpha: term.first = Image::kAlpha; break;
     case Source::kDepth:
       if (!settings_.subpixel) continue; // depths are not blended
-      term.samples = results_[0].channels + Image::kZ;
+      term.first = Image::kZ;
       break;
     }
     const PixelFilter& f = a.filter ? *a.filter : settings_.filter;
@@ -112,34 +60,44 @@ void Reconstruction::add_aovs() {
       return p.filter.kind == f.kind && p.filter.xwidth == f.xwidth && p.filter.ywidth == f.ywidth;
     };
     auto plan = std::find_if(plans_.begin(), plans_.end(), same);
-    if (plan == plans_.end()) plan = plans_.insert(plan, {f, {}});
+    if (plan == plans_.end()) plan = plans_.insert(plan, {f, WindowWeights(f), {}});
     plan->terms.push_back(term);
   }
 }
 
-void Reconstruction::add(const Plan& plan, size_t sample, float weight, float* pixel) const {
-  for (const Term& t : plan.terms)
-    for (int c = 0; c < t.count; ++c)
-      pixel[t.to + c] += weight * t.samples[sample * t.stride + static_cast<size_t>(c)];
+void Reconstructor::run(const BucketSamples& samples, Image& image) {
+  if (settings_.subpixel) {
+    copy_samples(samples, image);
+    return;
+  }
+  clear(settings_, samples.rect, image);
+  filter<true>(plans_[0], samples, image);
+  for (size_t i = 1; i < plans_.size(); ++i)
+    filter<false>(plans_[i], samples, image);
+  set_depths(samples, image);
 }
 
-template <bool standard> void Reconstruction::filter(const Plan& plan) {
+template <bool standard>
+void Reconstructor::filter(Plan& plan, const BucketSamples& samples, Image& image) const {
   const PixelFilter& filter = plan.filter;
-  WindowWeights weights(filter);
-  auto width = static_cast<size_t>(pattern_.width());
+  const PixelRect &rect = samples.rect, &covered = samples.covered;
+  const SamplePattern& pattern = samples.pattern;
+  auto width = static_cast<size_t>(pattern.width());
   SampleWindow window;
-  for (int y = rect_.y0; y < rect_.y1; ++y) {
+  for (int y = rect.y0; y < rect.y1; ++y) {
     float cy = static_cast<float>(y) + 0.5f;
-    reach(cy - static_cast<float>(covered_.y0), filter.ywidth, size_.ysamples, pattern_.height(), window.j0,
+    reach(cy - static_cast<float>(covered.y0), filter.ywidth, size_.ysamples, pattern.height(), window.j0,
           window.j1);
-    for (int x = rect_.x0; x < rect_.x1; ++x) {
+    const SampleSpan any = filled(samples, window.j0, window.j1);
+    for (int x = rect.x0; x < rect.x1; ++x) {
       float cx = static_cast<float>(x) + 0.5f;
-      reach(cx - static_cast<float>(covered_.x0), filter.xwidth, size_.xsamples, pattern_.width(), window.i0,
+      reach(cx - static_cast<float>(covered.x0), filter.xwidth, size_.xsamples, pattern.width(), window.i0,
             window.i1);
-      const float* weight = weights.at({cx, cy}, pattern_, window);
+      if (!any.overlaps(window.i0, window.i1)) continue;
+      const float* weight = plan.weights.at({cx, cy}, pattern, window);
       // Summed here and not in the image, to stay in registers.
       float sum[Image::kAov] = {};
-      float* p = image_.pixel(x, y);
+      float* p = image.pixel(x, y);
       float total = 0;
       for (size_t j = window.j0; j < window.j1; ++j)
         for (size_t k = j * width + window.i0, end = j * width + window.i1; k < end; ++k, ++weight) {
@@ -147,12 +105,14 @@ template <bool standard> void Reconstruction::filter(const Plan& plan) {
           total += w;
           if constexpr (standard)
             for (int c = 0; c < Image::kAov; ++c)
-              sum[c] += w * results_[k].channels[c];
-          add(plan, k, w, p);
+              sum[c] += w * samples.results[k].channels[c];
+          for (const Term& t : plan.terms)
+            for (int c = 0; c < t.count; ++c)
+              p[t.to + c] += w * t.in(samples)[k * t.stride + static_cast<size_t>(c)];
         }
       // A filter so narrow that it missed all samples: the plain mean of the pixel.
       if (total == 0) {
-        plain_mean<standard>(plan, x, y);
+        plain_mean<standard>(plan, samples, x, y, p);
         continue;
       }
       for (int c = 0; standard && c < Image::kAov; ++c)
@@ -164,21 +124,41 @@ template <bool standard> void Reconstruction::filter(const Plan& plan) {
   }
 }
 
-template <bool standard> void Reconstruction::plain_mean(const Plan& plan, int x, int y) {
+template <bool standard>
+void Reconstructor::plain_mean(const Plan& plan, const BucketSamples& samples, int x, int y,
+                               float* pixel) const {
   float w = 1 / static_cast<float>(size_.xsamples * size_.ysamples);
-  float* p = image_.pixel(x, y);
-  std::fill_n(p, standard ? Image::kAov : 0, 0.0f);
+  std::fill_n(pixel, standard ? Image::kAov : 0, 0.0f);
   for (int j = 0; j < size_.ysamples; ++j)
     for (int i = 0; i < size_.xsamples; ++i) {
-      size_t k = sample(x, y, i, j);
+      size_t k = sample(samples, x, y, i, j);
       for (int c = 0; standard && c < Image::kAov; ++c)
-        p[c] += w * results_[k].channels[c];
-      add(plan, k, w, p);
+        pixel[c] += w * samples.results[k].channels[c];
+      for (const Term& t : plan.terms)
+        for (int c = 0; c < t.count; ++c)
+          pixel[t.to + c] += w * t.in(samples)[k * t.stride + static_cast<size_t>(c)];
     }
 }
 
+void Reconstructor::set_depths(const BucketSamples& samples, Image& image) const {
+  const PixelRect& rect = samples.rect;
+  auto columns = static_cast<size_t>(size_.xsamples), rows = static_cast<size_t>(size_.ysamples);
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    size_t row = static_cast<size_t>(y - samples.covered.y0) * rows;
+    const SampleSpan any = filled(samples, row, row + rows);
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      size_t column = static_cast<size_t>(x - samples.covered.x0) * columns;
+      float z = any.overlaps(column, column + columns) ? depth(samples, x, y) : Image::kEmptyDepth;
+      float* p = image.pixel(x, y);
+      p[Image::kZ] = z;
+      for (const AovChannel& a : settings_.aovs)
+        if (a.source == AovChannel::Source::kDepth) p[Image::kAov + a.first] = z;
+    }
+  }
+}
+
 /// From the pixel's own samples: those without a surface do not count unless all are so.
-float Reconstruction::depth(int x, int y) const {
+float Reconstructor::depth(const BucketSamples& samples, int x, int y) const {
   bool farthest = settings_.depth_filter == DepthFilter::kMax;
   bool mean = settings_.depth_filter == DepthFilter::kAverage;
   float best = kInfinity, most = -kInfinity;
@@ -186,7 +166,7 @@ float Reconstruction::depth(int x, int y) const {
   int count = 0;
   for (int j = 0; j < size_.ysamples; ++j)
     for (int i = 0; i < size_.xsamples; ++i) {
-      float z = results_[sample(x, y, i, j)].channels[Image::kZ];
+      float z = samples.results[sample(samples, x, y, i, j)].channels[Image::kZ];
       if (z == kInfinity) continue;
       best = std::min(best, z);
       most = std::max(most, z);
@@ -198,22 +178,21 @@ float Reconstruction::depth(int x, int y) const {
   return farthest ? most : best;
 }
 
-void Reconstruction::copy_samples() {
-  for (int y = rect_.y0; y < rect_.y1; ++y)
-    for (int x = rect_.x0; x < rect_.x1; ++x)
+void Reconstructor::copy_samples(const BucketSamples& samples, Image& image) const {
+  const PixelRect& rect = samples.rect;
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x)
       for (int j = 0; j < size_.ysamples; ++j)
         for (int i = 0; i < size_.xsamples; ++i) {
-          size_t k = sample(x, y, i, j);
-          float* p = image_.pixel(x * size_.xsamples + i, y * size_.ysamples + j);
-          std::copy_n(results_[k].channels, Image::kAov, p);
+          size_t k = sample(samples, x, y, i, j);
+          float* p = image.pixel(x * size_.xsamples + i, y * size_.ysamples + j);
+          std::copy_n(samples.results[k].channels, Image::kAov, p);
           for (const Plan& plan : plans_)
             for (const Term& t : plan.terms)
-              std::copy_n(t.samples + k * t.stride, t.count, p + t.to);
-          p[Image::kZ] = std::min(results_[k].channels[Image::kZ], Image::kEmptyDepth);
+              std::copy_n(t.in(samples) + k * t.stride, t.count, p + t.to);
+          p[Image::kZ] = std::min(samples.results[k].channels[Image::kZ], Image::kEmptyDepth);
         }
 }
-
-} // namespace
 
 size_t ReconstructionSettings::aov_floats() const {
   size_t sum = 0;
@@ -238,10 +217,15 @@ int ReconstructionSettings::ymargin() const {
   return out;
 }
 
-void reconstruct(const ReconstructionSettings& settings, const SampleGridSize& size, PixelRect rect,
-                 PixelRect covered, const SamplePattern& pattern, std::span<const SampleResult> results,
-                 std::span<const float> aov, Image& image) {
-  Reconstruction(settings, size, rect, covered, pattern, results, aov, image).run();
+void clear(const ReconstructionSettings& settings, PixelRect rect, Image& image) {
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x) {
+      float* p = image.pixel(x, y);
+      std::fill_n(p, image.channels, 0.0f);
+      p[Image::kZ] = Image::kEmptyDepth;
+      for (const AovChannel& a : settings.aovs)
+        if (a.source == AovChannel::Source::kDepth) p[Image::kAov + a.first] = Image::kEmptyDepth;
+    }
 }
 
 } // namespace render

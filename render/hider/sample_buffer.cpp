@@ -42,6 +42,7 @@ PixelRect with_margins(const PixelRect& r, const ReconstructionSettings& s) {
 
 SampleBuffer::SampleBuffer(const SamplingSettings& settings)
     : settings_(settings), pattern_(settings.size, settings.moving, settings.lens != nullptr),
+      reconstructor_(settings.reconstruction, settings.size),
       density_(static_cast<float>(settings.size.xsamples), static_cast<float>(settings.size.ysamples)),
       aovs_(settings.aov_floats()),
       midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {
@@ -64,6 +65,7 @@ void SampleBuffer::begin(PixelRect rect) {
   open_ = pattern_.count();
   farthest_known_ = false;
   samples_.assign(open_, {});
+  layers_.assign(open_, {});
   z_.assign(open_ + SampleField::kPadding, kInfinity);
   if (midpoint_) second_.assign(open_ + SampleField::kPadding, kInfinity);
   sample_aov_.assign(open_ * aovs_, 0.0f);
@@ -259,6 +261,7 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
 /// The variables of displays, as colour_of(). Valid until the next call.
 const float* SampleBuffer::variables_of(const ShadedGrid& grid, const size_t (&corners)[3],
                                         const float (&weights)[3]) {
+  if (aovs_ == 0) return nullptr;
   const float* values[3];
   for (size_t c = 0; c < 3; ++c)
     values[c] = grid.aov.data() + corners[c] * aovs_;
@@ -292,7 +295,7 @@ void SampleBuffer::resolve_solid() {
 }
 
 void SampleBuffer::add(size_t index, Color Ci, Color Oi, float z, bool matte, const float* aov) {
-  Sample& sample = samples_[index];
+  Layers& layers = layers_[index];
   float& nearest = z_[index];
   if (reaches(Oi, settings_.opacity_threshold)) {
     farthest_known_ = false;
@@ -303,17 +306,16 @@ void SampleBuffer::add(size_t index, Color Ci, Color Oi, float z, bool matte, co
     if (in_front) nearest = z;
     if (was_open && limit < kInfinity) --open_;
     if (!in_front) return;
-    sample.Ci = Ci;
-    sample.Oi = Oi;
-    sample.matte = matte;
+    samples_[index].set_colours(Ci, Oi);
+    layers.matte = matte;
     std::copy_n(aov, aovs_, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_));
     return;
   }
   if (z >= nearest || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
   auto order = static_cast<uint32_t>(fragments_.size());
-  fragments_.push_back({Ci, Oi, z, sample.fragments, order, matte});
+  fragments_.push_back({Ci, Oi, z, layers.fragments, order, matte});
   fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs_);
-  sample.fragments = order;
+  layers.fragments = order;
 }
 
 float SampleBuffer::farthest() const {
@@ -329,11 +331,12 @@ float SampleBuffer::farthest() const {
 
 /// Front to back: C += T Ci, T *= 1 - Oi for each component, until the opacity threshold (RISpec 3.2, 4.2).
 /// The depth is that of the first surface opaque enough to have one.
-SampleResult SampleBuffer::composite_fragments(size_t index) {
-  const Sample& sample = samples_[index];
+SampleResult SampleBuffer::composite_layers(size_t index) {
+  const SampleResult& opaque = samples_[index];
+  const auto [fragments, matte_behind] = layers_[index];
   const float nearest = z_[index];
   scratch_.clear();
-  for (uint32_t f = sample.fragments; f != kNone; f = fragments_[f].next)
+  for (uint32_t f = fragments; f != kNone; f = fragments_[f].next)
     if (fragments_[f].z < nearest) scratch_.push_back(&fragments_[f]);
   std::sort(scratch_.begin(), scratch_.end(), [](const Fragment* a, const Fragment* b) {
     return a->z != b->z ? a->z < b->z : a->order < b->order;
@@ -361,20 +364,11 @@ SampleResult SampleBuffer::composite_fragments(size_t index) {
     if (closed) break;
   }
   if (!closed && nearest < kInfinity) {
-    add(sample.Ci, sample.Oi, sample.matte);
-    if (sample.matte && !seen) std::fill_n(own_aov, aovs_, 0.0f);
+    add(opaque.Ci(), opaque.Oi(), matte_behind);
+    if (matte_behind && !seen) std::fill_n(own_aov, aovs_, 0.0f);
   }
-  if (!sample.matte) out.channels[Image::kZ] = std::min(out.channels[Image::kZ], opaque_depth(index));
+  if (!matte_behind) out.channels[Image::kZ] = std::min(out.channels[Image::kZ], opaque_depth(index));
   out.set_colours(C, O);
-  return out;
-}
-
-SampleResult SampleBuffer::composite(size_t index) {
-  const Sample& sample = samples_[index];
-  if (sample.fragments != kNone || sample.matte) return composite_fragments(index);
-  SampleResult out;
-  out.channels[Image::kZ] = opaque_depth(index);
-  out.set_colours(sample.Ci, sample.Oi);
   return out;
 }
 
@@ -384,13 +378,26 @@ float SampleBuffer::opaque_depth(size_t index) const {
   return midpoint_ && second_[index] < kInfinity ? 0.5f * (z + second_[index]) : z;
 }
 
+void SampleBuffer::composite_all() {
+  auto width = static_cast<size_t>(pattern_.width());
+  filled_.assign(static_cast<size_t>(pattern_.height()), {});
+  size_t k = 0;
+  for (SampleSpan& row : filled_)
+    for (size_t i = 0; i < width; ++i, ++k) {
+      const Layers& layers = layers_[k];
+      if (z_[k] == kInfinity && layers.fragments == kNone) continue;
+      row.add({i, i + 1});
+      if (layers.fragments != kNone || layers.matte)
+        samples_[k] = composite_layers(k);
+      else
+        samples_[k].channels[Image::kZ] = opaque_depth(k);
+    }
+}
+
 void SampleBuffer::finish(Image& image) {
   resolve_solid();
-  results_.resize(samples_.size());
-  for (size_t i = 0; i < samples_.size(); ++i)
-    results_[i] = composite(i);
-  reconstruct(settings_.reconstruction, settings_.size, rect_, covered_, pattern_, results_, sample_aov_,
-              image);
+  composite_all();
+  reconstructor_.run({rect_, covered_, pattern_, samples_, sample_aov_, filled_}, image);
 }
 
 } // namespace render

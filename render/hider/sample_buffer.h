@@ -59,11 +59,10 @@ private:
     uint32_t order; ///< of arrival, to decide between equal depths
     bool matte;
   };
-  /// The nearest opaque surface, without its depth, and what is in front of it.
-  struct Sample {
-    Color Ci{0.0f}, Oi{0.0f};
-    uint32_t fragments = kNone;
-    bool matte = false;
+  /// What else is known of a sample.
+  struct Layers {
+    uint32_t fragments = kNone; ///< in front of what is opaque
+    bool matte = false;         ///< the opaque surface is
   };
   static constexpr uint32_t kNone = 0xffffffffu;
 
@@ -87,23 +86,25 @@ private:
   void resolve_solid();
   /// Left out by a clipping plane or by the depth mask.
   bool removed(size_t index, float z) const;
-  SampleResult composite(size_t index);
-  SampleResult composite_fragments(size_t index);
+  void composite_all();
+  SampleResult composite_layers(size_t index);
   float opaque_depth(size_t index) const;
 
   SamplingSettings settings_;
   PixelRect rect_, covered_;
   Vec2 origin_{0.0f}; ///< of covered_
   SamplePattern pattern_;
-  Vec2 density_; ///< samples a pixel
-  std::vector<Sample> samples_;
+  Reconstructor reconstructor_;
+  Vec2 density_;                      ///< samples a pixel
+  std::vector<SampleResult> samples_; ///< the nearest opaque surface, all but its depth; in the end all
+  std::vector<Layers> layers_;
   std::vector<float> z_;      ///< of each sample's nearest opaque surface; infinite: none
   std::vector<float> second_; ///< of the opaque surface behind it; for midpoints only
   std::vector<QuadHit> hits_;
-  std::vector<SampleResult> results_;
-  std::vector<Vec2> lens_;      ///< each sample's point of the lens, as raster shift without defocus
-  std::vector<Box> lens_boxes_; ///< the same, of each stratum
-  Box lens_box_;                ///< and of all of them
+  std::vector<SampleSpan> filled_; ///< of each row, what holds all samples with something
+  std::vector<Vec2> lens_;         ///< each sample's point of the lens, as raster shift without defocus
+  std::vector<Box> lens_boxes_;    ///< the same, of each stratum
+  Box lens_box_;                   ///< and of all of them
   std::vector<Fragment> fragments_;
   size_t aovs_; ///< floats of variables for each sample
   std::vector<float> sample_aov_, fragment_aov_;
