@@ -14,16 +14,19 @@
 
 namespace slvm {
 
-Operand ShaderRun::external_operand(const Frame& f, uint32_t word) const {
+void ShaderRun::resolve_external(const Frame& f, uint32_t word, Operand& out) const {
   uint32_t index = operand_index(word);
   if (operand_space(word) == Space::kSlot) {
     const Planes& p = slots[index];
-    return {p.data + (p.step ? f.first : 0), p.pitch, p.step, std::max(p.elements, 1u)};
+    out.data = p.data + (p.step ? f.first : 0);
+    out.pitch = p.pitch;
+    out.step = p.step;
+    out.elements = std::max(p.elements, 1u);
+    return;
   }
   const ArrayInfo& a = program.arrays[index];
-  Operand o = operand(f, make_operand(a.space, a.index));
-  o.elements = a.elements;
-  return o;
+  resolve(f, make_operand(a.space, a.index), out);
+  out.elements = a.elements;
 }
 
 const MaskWord* ShaderRun::condition(const Frame& f, const uint32_t* word) {
@@ -127,7 +130,7 @@ void ShaderRun::call(const Frame& f, uint32_t pc, uint16_t import, std::span<con
   const Instance::Bound::Import& target = bound.imports[import];
   if (target.kernel) {
     for (size_t i = 0; i < words.size(); ++i)
-      operands_[i] = operand(f, words[i]);
+      resolve(f, words[i], operands_[i]);
     call_kernel(f, target.kernel, operands_.data(), static_cast<uint32_t>(words.size()));
     return;
   }
@@ -201,7 +204,7 @@ void ShaderRun::run_strips(const Frame& grid, const MaskStack& grid_mask, uint32
     strip_mask_.reset_from(grid_mask, first, f.lanes, f.active);
     if (strip_mask_.any() == idle) return;
     for (auto word = from; word != to; ++word)
-      resolved_[*word] = operand(f, program.code[*word]);
+      resolve(f, program.code[*word], resolved_[*word]);
     f.resolved = resolved_.data();
     f.context.begin = 0;
     f.context.first_point = static_cast<uint32_t>(first);

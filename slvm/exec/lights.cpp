@@ -50,17 +50,14 @@ LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance
     for (size_t i = 0; i < used_; ++i) {
       LitGrid& g = *grids_[i];
       if (g.light_id == light.id() && same(position, pitch, g.position) &&
-          (!uses_normal || same(normal, pitch, g.normal)))
+          (!uses_normal || same(normal, pitch, g.normal))) {
+        g.last_use = ++uses_;
         return g;
+      }
     }
   const Instance& shader = sent.empty() ? light : open(state.machine, light);
-  // A place whose run was of this light keeps its registers.
-  size_t place = used_;
-  while (place < grids_.size() && grids_[place]->light_id != shader.id())
-    ++place;
-  if (place == grids_.size()) grids_.push_back(std::make_unique<LitGrid>());
-  std::swap(grids_[used_], grids_[place]);
-  LitGrid& g = *grids_[used_++];
+  LitGrid& g = place_for(shader.id());
+  g.last_use = ++uses_;
   if (g.light_id != shader.id()) {
     g.run = std::make_unique<ShaderRun>(state, shader, &by);
     g.light = &light;
@@ -73,6 +70,25 @@ LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance
   g.run->execute();
   end_light(*g.run);
   return g;
+}
+
+LitGrid& LightCache::place_for(uint64_t light_id) {
+  // The open loop looks at the latest of each light only: the one not asked for longest can go.
+  LitGrid* oldest = nullptr;
+  size_t kept = 0;
+  for (size_t i = 0; i < used_; ++i) {
+    LitGrid& g = *grids_[i];
+    if (g.light_id != light_id) continue;
+    ++kept;
+    if (!oldest || g.last_use < oldest->last_use) oldest = &g;
+  }
+  if (kept >= kKept) return *oldest;
+  size_t place = used_;
+  while (place < grids_.size() && grids_[place]->light_id != light_id)
+    ++place;
+  if (place == grids_.size()) grids_.push_back(std::make_unique<LitGrid>());
+  std::swap(grids_[used_], grids_[place]);
+  return *grids_[used_++];
 }
 
 const Instance& LightCache::open(const Machine& machine, const Instance& light) {

@@ -45,6 +45,7 @@ struct LitGrid {
   std::vector<float> position, normal; ///< the points and normals it ran for
   const Instance* light = nullptr;
   uint64_t light_id = 0;
+  uint64_t last_use = 0; ///< when it was asked for, by LightCache's count
 };
 
 /// The lights' results on the grid being shaded, and memory for them from grid to grid.
@@ -59,12 +60,19 @@ public:
                  const Operand& normal, std::span<const SentValue> sent = {});
 
 private:
+  /// For how many sets of points what a light gives is kept. Shaders that march through a volume come to new
+  /// ones at each step: to keep all of it would take more from the processor's caches than it saves.
+  static constexpr size_t kKept = 4;
+
+  /// A place for the next run of a light, with registers of an earlier one if there are any.
+  LitGrid& place_for(uint64_t light_id);
   /// The light with all its parameters as variables: a specialised one has values in its code.
   const Instance& open(const Machine&, const Instance&);
 
   std::map<uint64_t, std::unique_ptr<const Instance>> open_;
   std::vector<std::unique_ptr<LitGrid>> grids_;
   size_t used_ = 0;
+  uint64_t uses_ = 0;
 };
 
 /// A loop over the emissions of the lights of a category.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <new>
 
 namespace slvm {
 
@@ -24,14 +25,14 @@ void ShaderRun::prepare(const Operand* position, const Operand* normal, std::spa
   emitting = Emitting::kNothing;
   bind_registers();
   slots.resize(program.slots.size());
-  for (size_t i = 0; i < slots.size(); ++i)
-    slots[i] = program.slots[i].parameter
-                   ? bind_parameter(i)
-                   : bind_variable(bound.globals[i], program.slots[i].stored, position, normal);
+  for (size_t i = 0; i < slots.size(); ++i) // made in place, since to copy what was just written takes long
+    new (&slots[i]) Planes(program.slots[i].parameter
+                               ? bind_parameter(i)
+                               : bind_variable(bound.globals[i], program.slots[i].stored, position, normal));
   mask.reset(pitch, points);
   resolved_.resize(program.code.size());
   for (uint32_t word : bound.fixed_operands)
-    resolved_[word] = operand(frame_, program.code[word]);
+    resolve(frame_, program.code[word], resolved_[word]);
 }
 
 void ShaderRun::compute_defaults() {

@@ -85,16 +85,25 @@ public:
   GatherStack gathers; ///< the loops over rays being run
 
   Operand operand(const Frame& f, uint32_t word) const {
+    Operand out;
+    resolve(f, word, out);
+    return out;
+  }
+  /// The same in place. Members are written one by one: a copy of what was just written so waits for memory.
+  void resolve(const Frame& f, uint32_t word, Operand& out) const {
     auto space = static_cast<size_t>(operand_space(word));
-    if (space >= static_cast<size_t>(Space::kSlot)) return external_operand(f, word);
-    return {f.data[space] + operand_index(word) * f.pitch[space], f.pitch[space], f.step[space], 1};
+    if (space >= static_cast<size_t>(Space::kSlot)) return resolve_external(f, word, out);
+    out.data = f.data[space] + operand_index(word) * f.pitch[space];
+    out.pitch = f.pitch[space];
+    out.step = f.step[space];
+    out.elements = 1;
   }
   /// The operand whose word is at `w` in the code.
   Operand operand_at(const Frame& f, const uint32_t* w) const {
     return f.resolved ? f.resolved[w - program.code.data()] : operand(f, *w);
   }
   /// A variable or an array.
-  Operand external_operand(const Frame& frame, uint32_t word) const;
+  void resolve_external(const Frame& frame, uint32_t word, Operand& out) const;
   const Frame& grid_frame() const { return frame_; }
   Planes* slot(Global g) {
     int32_t i = bound.slot_of[static_cast<size_t>(g)];
