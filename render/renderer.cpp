@@ -129,9 +129,9 @@ void Renderer::Impl::render(Scene& frame) {
                           fmt::format("texture \"{}\" is missing: \"{}\" is used", wanted, used));
   for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
     if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
-      diagnostics.warning({}, "display",
-                          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0",
-                                      s.aovs[a].name));
+      diagnostics.warning(
+          {}, "display",
+          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0", s.aovs[a].name));
   if (report.bad_colours > 0)
     diagnostics.warning({}, "nan",
                         fmt::format("{} shading points have a colour that is not a finite number; "

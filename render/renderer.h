@@ -31,8 +31,8 @@ struct RendererSettings {
   double program_seconds = 60;
   /// Folders of plug-ins that shaders may call (slvm::MachineOptions::plugin_folders). Scenes add none.
   std::vector<std::string> plugin_folders;
-  /// The only folders plug-ins that make geometry are loaded from (Procedural "DynamicLoad"), and what is called in place
-  /// of their functions: see Interpreter::around_plug_in.
+  /// The only folders plug-ins that make geometry are loaded from (Procedural "DynamicLoad"), and what is
+  /// called in place of their functions: see Interpreter::around_plug_in.
   std::vector<std::string> procedural_folders;
   std::function<void(slvm::SourceRange procedural, const std::function<void()>& functions)> around_plug_in;
   ShaderLoader shader_loader = load_compiled_shader;

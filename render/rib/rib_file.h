@@ -30,7 +30,7 @@ private:
 
   std::string name_;
   std::unique_ptr<slvm::WholeFile> file_; ///< null: standard output
-  void* stream_; ///< zlib's
+  void* stream_;                          ///< zlib's
   bool failed_ = false;
 };
 

@@ -33,7 +33,7 @@ struct Scene {
   std::map<std::string, Matrix4> spaces;
   std::vector<Primitive> primitives;
   std::vector<ObjectCopy> copies; ///< what rays may share; primitives may have changed since
-  uint32_t solids = 0; ///< so many CSG solids bound some of them
+  uint32_t solids = 0;            ///< so many CSG solids bound some of them
   /// Geometry that is made when the picture comes to it: Interpreter::make_content.
   std::vector<Procedural> procedurals;
 };

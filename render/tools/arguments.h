@@ -22,7 +22,7 @@ struct Arguments {
   std::string directory;
   std::vector<std::string> shader_path, archive_path;
   std::vector<std::string> procedural_path;
-  std::vector<std::string> plugin_folders;  ///< of shaders
+  std::vector<std::string> plugin_folders;     ///< of shaders
   std::vector<std::string> procedural_folders; ///< of procedurals: those of the path that the user gave
   bool allow_programs = false;
   double program_seconds = 60;

@@ -1,4 +1,5 @@
-// Prototypes in the tables of plug-ins. What is read has a signature that can be read, too, and says the same.
+// Prototypes in the tables of plug-ins. What is read has a signature that can be read, too, and says the
+// same.
 #include "slvm/plugin/prototype.h"
 
 #include <cstdlib>
@@ -9,8 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (!prototype) {
     if (prototype.error().empty() || prototype.error().size() > 200) std::abort();
   } else {
-    auto made = slvm::PluginShadeop::make({prototype->name, prototype->signature(), "", slvm::PluginForm::kGrid});
-    if (!made || static_cast<size_t>(made->info().signature.param_count) != prototype->params.size()) std::abort();
+    auto made =
+        slvm::PluginShadeop::make({prototype->name, prototype->signature(), "", slvm::PluginForm::kGrid});
+    if (!made || static_cast<size_t>(made->info().signature.param_count) != prototype->params.size())
+      std::abort();
     for (size_t i = 0; i < prototype->params.size(); ++i) {
       const slvm::SignatureParam& p = made->info().signature.param(static_cast<int>(i));
       const slvm::PrototypeParam& q = prototype->params[i];

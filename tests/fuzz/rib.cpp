@@ -1,5 +1,5 @@
-// RIB from anywhere (ASCII, encoded, compressed), through lexer and parser. What the requests are written as must
-// be read without an error, and as many.
+// RIB from anywhere (ASCII, encoded, compressed), through lexer and parser. What the requests are written as
+// must be read without an error, and as many.
 #include "render/rib/gzip.h"
 #include "render/rib/parser.h"
 #include "render/rib/writer.h"
