@@ -18,7 +18,7 @@ struct SampleResult {
 
   Color Ci() const { return {channels[Image::kCi], channels[Image::kCi + 1], channels[Image::kCi + 2]}; }
   Color Oi() const { return {channels[Image::kOi], channels[Image::kOi + 1], channels[Image::kOi + 2]}; }
-  void set_colours(Color C, Color O) {
+  void set_colours(const Color& C, const Color& O) {
     for (int c = 0; c < 3; ++c) {
       channels[Image::kCi + c] = C[c];
       channels[Image::kOi + c] = O[c];

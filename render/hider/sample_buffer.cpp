@@ -8,7 +8,7 @@ namespace render {
 
 namespace {
 
-bool reaches(Color opacity, Color threshold) {
+bool reaches(const Color& opacity, const Color& threshold) {
   return opacity.x >= threshold.x && opacity.y >= threshold.y && opacity.z >= threshold.z;
 }
 
@@ -64,7 +64,7 @@ void SampleBuffer::begin(PixelRect rect) {
   origin_ = {static_cast<float>(covered_.x0), static_cast<float>(covered_.y0)};
   open_ = pattern_.count();
   farthest_known_ = false;
-  samples_.assign(open_, {});
+  samples_.resize(open_); // what nothing is drawn to is cleared at the end
   layers_.assign(open_, {});
   z_.assign(open_ + SampleField::kPadding, kInfinity);
   if (midpoint_) second_.assign(open_ + SampleField::kPadding, kInfinity);
@@ -294,7 +294,8 @@ void SampleBuffer::resolve_solid() {
   solid_aov_.clear();
 }
 
-void SampleBuffer::add(size_t index, Color Ci, Color Oi, float z, bool matte, const float* aov) {
+void SampleBuffer::add(size_t index, const Color& Ci, const Color& Oi, float z, bool matte,
+                       const float* aov) {
   Layers& layers = layers_[index];
   float& nearest = z_[index];
   if (reaches(Oi, settings_.opacity_threshold)) {
@@ -385,7 +386,10 @@ void SampleBuffer::composite_all() {
   for (SampleSpan& row : filled_)
     for (size_t i = 0; i < width; ++i, ++k) {
       const Layers& layers = layers_[k];
-      if (z_[k] == kInfinity && layers.fragments == kNone) continue;
+      if (z_[k] == kInfinity && layers.fragments == kNone) {
+        samples_[k] = {};
+        continue;
+      }
       row.add({i, i + 1});
       if (layers.fragments != kNone || layers.matte)
         samples_[k] = composite_layers(k);

@@ -82,7 +82,7 @@ private:
   std::vector<float>& limits() { return midpoint_ ? second_ : z_; }
   const std::vector<float>& limits() const { return midpoint_ ? second_ : z_; }
   /// A surface over a sample, in front of what is opaque there.
-  void add(size_t index, Color Ci, Color Oi, float z, bool matte, const float* aov);
+  void add(size_t index, const Color& Ci, const Color& Oi, float z, bool matte, const float* aov);
   void resolve_solid();
   /// Left out by a clipping plane or by the depth mask.
   bool removed(size_t index, float z) const;

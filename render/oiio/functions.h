@@ -6,7 +6,7 @@
 
 namespace render::oiio {
 
-std::unique_ptr<ImageLookups> make_lookups(float memory_megabytes);
+std::unique_ptr<TextureReader> open_texture(const std::string& path, std::string& problem);
 bool knows_format(const std::string& name);
 std::string write_image(const ImageFile&);
 std::string read_depth(const std::string& path, DepthImage&);

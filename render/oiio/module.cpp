@@ -1,8 +1,9 @@
 // The way into the module: its functions, in a table.
 #include "render/oiio/functions.h"
+#include "render/texture/texture_image.h"
 
 extern "C" void anemone_image_module(render::ImageModule* table) {
   using namespace render::oiio;
-  *table = {"",           make_lookups, knows_format, write_image,           read_depth,
+  *table = {"",           open_texture, knows_format, write_image,           read_depth,
             make_texture, make_bump,    make_latlong, make_cube_environment, make_shadow};
 }

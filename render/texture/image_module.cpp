@@ -1,5 +1,7 @@
 #include "render/texture/image_module.h"
 
+#include "render/texture/texture_image.h"
+
 #include <dlfcn.h>
 
 #include <filesystem>
@@ -13,13 +15,12 @@ ImageModule load() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   ImageModule module;
-  module.problem =
-      "without anemone_images.so (OpenImageIO) there are no textures and only TIFF and PNG files";
+  module.problem = "without anemone_images.so (OpenImageIO) there are only TIFF and PNG files";
   for (const char* place : {"anemone_images.so", "../lib/anemone/anemone_images.so"}) {
     const fs::path file = folder / place;
     if (!fs::exists(file, error)) continue;
     // Never closed: the library behind it has threads of its own.
-    void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* handle = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
     using Fill = void (*)(ImageModule*);
     auto fill = handle ? reinterpret_cast<Fill>(dlsym(handle, "anemone_image_module")) : nullptr;
     if (!fill) {

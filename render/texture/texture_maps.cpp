@@ -2,7 +2,6 @@
 
 #include "render/texture/depth_image.h"
 #include "render/texture/find_image.h"
-#include "render/texture/image_module.h"
 #include "render/texture/shadow_map.h"
 
 #include <algorithm>
@@ -17,7 +16,8 @@ constexpr const char* kNoFile = "no such file in the texture search path";
 
 } // namespace
 
-TextureMaps::TextureMaps(const Settings& settings) : settings_(settings) {}
+TextureMaps::TextureMaps(const Settings& settings)
+    : settings_(settings), lookups_(settings.memory_megabytes) {}
 TextureMaps::~TextureMaps() = default;
 
 const TextureMaps::File& TextureMaps::file_of(std::string_view map) {
@@ -30,8 +30,7 @@ const TextureMaps::File& TextureMaps::file_of(std::string_view map) {
     // The same name in a folder of the path is no replacement.
     if (*found != map && !found->ends_with("/" + std::string(map))) replaced_[std::string(map)] = *found;
   } else {
-    // OpenImageIO makes names of files of some: "wood.<UDIM>.tx".
-    file = {std::string(map), map.find_first_of("<%") != map.npos};
+    file = {std::string(map), false};
   }
   return files_.emplace(std::string(map), std::move(file)).first->second;
 }
@@ -42,40 +41,27 @@ std::map<std::string, std::string> TextureMaps::replaced() {
 }
 
 TextureMaps::Usage TextureMaps::usage() {
-  if (!lookups_) return {};
-  auto [files, bytes] = lookups_->usage();
+  auto [files, bytes] = lookups_.usage();
   return {files, bytes};
-}
-
-/// Null when there is no module.
-ImageLookups* TextureMaps::lookups() {
-  std::call_once(lookups_made_, [&] {
-    if (const ImageModule& module = image_module(); module.problem.empty())
-      lookups_ = module.make_lookups(settings_.memory_megabytes);
-  });
-  return lookups_.get();
 }
 
 std::string TextureMaps::texture(const TextureLookup& l) {
   const File& file = file_of(l.map);
   if (!file.exists) return kNoFile;
-  ImageLookups* images = lookups();
-  return images ? images->texture(file.path, l) : image_module().problem;
+  return lookups_.texture(file.path, l);
 }
 
 std::string TextureMaps::environment(const TextureLookup& l) {
   const File& file = file_of(l.map);
   if (!file.exists) return kNoFile;
-  ImageLookups* images = lookups();
-  return images ? images->environment(file.path, l) : image_module().problem;
+  return lookups_.environment(file.path, l);
 }
 
 bool TextureMaps::info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world,
                        slvm::Value& out) {
   const File& file = file_of(map);
   if (!file.exists) return false;
-  ImageLookups* images = lookups();
-  return images && images->info(file.path, field, current_to_world, out);
+  return lookups_.info(file.path, field, current_to_world, out);
 }
 
 namespace {

@@ -1,8 +1,8 @@
-// Texture, environment and shadow maps: files found by name; textures by OpenImageIO's module, which is
-// loaded when the first is looked up (image_module.h). Ordinary image files serve as well as tiled mip-maps:
-// levels are made as they are needed.
+// Texture, environment and shadow maps: files found by name. Ordinary image files serve as well as tiled
+// mip-maps: levels are made as they are needed (texture_image.h).
 #pragma once
 
+#include "render/texture/texture_lookups.h"
 #include "slvm/textures.h"
 
 #include <map>
@@ -13,7 +13,6 @@
 
 namespace render {
 
-class ImageLookups;
 class ShadowMap;
 
 class TextureMaps : public slvm::TextureServices {
@@ -43,16 +42,14 @@ public:
   Usage usage();
 
 private:
-  ImageLookups* lookups(); ///< made when it is first asked for
   /// The map, read once; null with the reason.
   std::shared_ptr<const ShadowMap> shadow_map(const std::string& name, std::string& problem);
 
   Settings settings_;
-  std::once_flag lookups_made_;
-  std::unique_ptr<ImageLookups> lookups_;
+  TextureLookups lookups_;
   struct File {
-    std::string path;    ///< the map's name when there is none
-    bool exists = false; ///< or may do, by OpenImageIO's rules for names
+    std::string path; ///< the map's name when there is none
+    bool exists = false;
   };
   const File& file_of(std::string_view map);
 

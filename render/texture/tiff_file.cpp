@@ -3,6 +3,7 @@
 #include "render/texture/depth_image.h"
 #include "render/texture/image_file.h"
 
+#include "render/texture/tiff_fields.h"
 #include "slvm/support/tiff_open.h"
 
 #include <algorithm>
@@ -98,12 +99,6 @@ bool write_strips(TIFF* t, const ImageFile& image) {
   return TIFFFlush(t) != 0;
 }
 
-std::vector<float> matrix(TIFF* t, uint32_t tag) {
-  const float* numbers = nullptr; // libtiff knows these tags to have 16
-  if (!TIFFGetField(t, tag, &numbers) || !numbers) return {};
-  return {numbers, numbers + 16};
-}
-
 /// Rows of floats, or tiles of them.
 bool read_pixels(TIFF* t, DepthImage& out) {
   const auto width = static_cast<uint32_t>(out.width), height = static_cast<uint32_t>(out.height);
@@ -167,8 +162,8 @@ bool read_depth_tiff(const std::string& path, DepthImage& out) {
   out.width = static_cast<int>(width);
   out.height = static_cast<int>(height);
   out.depth.assign(static_cast<size_t>(width) * height, 0.0f);
-  out.world_to_camera = matrix(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA);
-  out.world_to_screen = matrix(t, TIFFTAG_PIXAR_MATRIX_WORLDTOSCREEN);
+  out.world_to_camera = matrix_field(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA);
+  out.world_to_screen = matrix_field(t, TIFFTAG_PIXAR_MATRIX_WORLDTOSCREEN);
   return read_pixels(t, out);
 }
 

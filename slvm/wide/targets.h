@@ -1,6 +1,6 @@
-// Which SIMD targets there is code for, and which of them this machine can run. Highway has that in its library,
-// too; but the shared library of 1.0 measures its clock for 4 ms whenever it is loaded, which is longer than a small
-// picture takes. Of Highway only headers are used.
+// Which SIMD targets there is code for, and which of them this machine can run. Highway has that in its
+// library, too; but the shared library of 1.0 measures its clock for 4 ms whenever it is loaded, which is
+// longer than a small picture takes. Of Highway only headers are used.
 #pragma once
 
 #include <hwy/detect_targets.h>
@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <initializer_list>
 
-// Runs of the list of targets, best first: X(target, namespace, name, arguments...) for each this build has code for.
+// Runs of the list of targets, best first: X(target, namespace, name, arguments...) for each this build has
+// code for.
 #if HWY_TARGETS & HWY_AVX3
 #define SL_AVX3(X, ...) X(HWY_AVX3, N_AVX3, "AVX3" __VA_OPT__(, ) __VA_ARGS__)
 #else
@@ -52,8 +53,8 @@ inline int64_t supported_targets() {
 #if HWY_ARCH_X86
   __builtin_cpu_init(); // for callers that run before main()
   // What Highway compiles each target for; those of one generation of processors are tested by their newest.
-  const bool sse4 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") &&
-                    __builtin_cpu_supports("pclmul");
+  const bool sse4 =
+      __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
   const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
                     __builtin_cpu_supports("bmi2");
   const bool avx3 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
@@ -79,8 +80,8 @@ template <class Function> Function* best_of(std::initializer_list<ForTarget<Func
 
 } // namespace slvm
 
-/// The one to call of a function that is compiled for all targets (hwy/foreach_target.h). For use after HWY_ONCE, to
-/// initialise a constant.
+/// The one to call of a function that is compiled for all targets (hwy/foreach_target.h). For use after
+/// HWY_ONCE, to initialise a constant.
 #define SL_BEST(function)                                                                                    \
   slvm::best_of<decltype(HWY_NAMESPACE::function)>({SL_TARGETS(SL_BEST_ROW, function)})
 #define SL_BEST_ROW(target, name_space, name, function) {target, &name_space::function},

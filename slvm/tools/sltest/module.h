@@ -1,5 +1,5 @@
-// Modules that take longer to load than most tests to run: sltest_images.so, which holds all that needs
-// OpenImageIO, and sltest_rays.so, which holds the renderer.
+// Modules that most tests do without: sltest_images.so, which holds all that needs OpenImageIO,
+// sltest_textures.so and sltest_rays.so, which hold parts of the renderer.
 #pragma once
 
 namespace slvm::sltest {

@@ -12,7 +12,7 @@ TextureServices* LazyTextures::get(float shadow_bias) {
   if (!loaded_) {
     loaded_ = true;
     using Make = TextureServices* (*)(const char*, float);
-    if (auto make = reinterpret_cast<Make>(module_function("sltest_make_textures")))
+    if (auto make = reinterpret_cast<Make>(module_function("sltest_make_textures", "sltest_textures.so")))
       textures_.reset(make(fmt::format("{}", fmt::join(path_, ":")).c_str(), shadow_bias));
   }
   return textures_.get();

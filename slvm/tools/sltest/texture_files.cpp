@@ -1,4 +1,4 @@
-// Texture lookups for sltest: the renderer's, in the module that holds OpenImageIO.
+// Texture lookups for sltest: the renderer's, in a module of their own.
 #include "render/texture/texture_maps.h"
 
 #include <sstream>
