@@ -29,14 +29,17 @@ ALLOWED = {
     "slvm/exec": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/machine", "slvm/evaluator",
                   "slvm/plugin", "slvm/support"] + SLVM_TOP,
     "slvm/tools": ["slvm", "slc"],
-    # The module of sltest that holds OpenImageIO takes its textures from the renderer.
-    "slvm/tools/sltest/texture_oiio": ["slvm", "render/texture"],
+    # The module of sltest for textures takes them from the renderer.
+    "slvm/tools/sltest/texture_files": ["slvm", "render/texture"],
     # Its module for scenes is the renderer.
     "slvm/tools/sltest/ray_render": ["slvm", "render", "slvm/tools/sltest/ray_scene"],
     "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
-    "render": ["public"],
+    "render": ["public", "render/hider/quad_hits", "render/hider/window_weights"],
+    # Compiled once for each SIMD target.
+    "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
+    "render/hider/window_weights": ["render", "public", "slvm/wide/targets"],
     # What slrender and the C interface share: shaders are compiled on the fly.
     "render/setup": ["render", "slc", "public"],
     "render/ri": ["render", "public"],
@@ -53,7 +56,7 @@ ALLOWED = {
 # The only folders that may use these libraries.
 OUTSIDE = {
     r"embree[34]/": ["render/rays", "tests/bench"],
-    r"OpenImageIO/": ["render/oiio", "tests/render", "slvm/tools/sltest"],
+    r"OpenImageIO/": ["render/oiio", "tests/render", "tests/bench/textures", "slvm/tools/sltest"],
     r"(?:tiffio|png)\.h": ["render/texture", "slvm/support/tiff_open"],
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],

@@ -1,5 +1,5 @@
 // What texture(), environment() and shadow() ask of a renderer: lookups in maps, for all points of a grid at
-// once. PUBLIC, abstract: render/texture implements it with OpenImageIO; so can an embedder.
+// once. PUBLIC, abstract: render/texture implements it; so can an embedder.
 #pragma once
 
 #include "slvm/support/matrix.h"

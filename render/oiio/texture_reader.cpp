@@ -45,7 +45,8 @@ public:
   }
 
   std::string read(size_t level, std::span<std::byte> texels) override {
-    if (in_->read_image(0, static_cast<int>(level), 0, header_.channels, type_of(header_.type), texels.data()))
+    if (in_->read_image(0, static_cast<int>(level), 0, header_.channels, type_of(header_.type),
+                        texels.data()))
       return {};
     return in_->geterror();
   }

@@ -10,8 +10,8 @@ namespace render {
 
 namespace {
 
-/// A texel of a level is a box as wide as itself, bilinear interpolation a tent of twice that: together they spread as
-/// a box does that is wider by this.
+/// A texel of a level is a box as wide as itself, bilinear interpolation a tent of twice that: together they
+/// spread as a box does that is wider by this.
 constexpr float kSpread = 1.7320508f;
 
 /// The place of a texel within the image, or -1 for nothing.
@@ -36,7 +36,8 @@ struct Taps {
 template <class Way> Taps taps(Way way, float x, int size, TextureWrap wrap) {
   Taps out;
   // Far beyond the image all places are alike but for those that repeat.
-  if (wrap == TextureWrap::kPeriodic) x -= std::floor(x / static_cast<float>(size)) * static_cast<float>(size);
+  if (wrap == TextureWrap::kPeriodic)
+    x -= std::floor(x / static_cast<float>(size)) * static_cast<float>(size);
   x = std::clamp(x, -8.0f, static_cast<float>(size) + 8.0f);
   auto add = [&](int i, float w) {
     const int at = wrapped(i, size, wrap);
@@ -65,9 +66,7 @@ template <class Way> Taps taps(Way way, float x, int size, TextureWrap wrap) {
     add(i + 1, ((4 - 3 * f) * f + 1) * f / 2);
     add(i + 2, (f - 1) * f * f / 2);
     break;
-  default:
-    add(i, 1 - f);
-    add(i + 1, f);
+  default: add(i, 1 - f); add(i + 1, f);
   }
   return out;
 }
@@ -90,7 +89,7 @@ TextureFilter::TextureFilter(const TextureImage& image, const slvm::TextureLooku
   most_places_ = o.samples >= 1 ? std::min(std::floor(o.samples), 256.0f) : kMostPlaces;
   gaussian_ = o.filter == "gaussian";
   triangle_ = o.filter == "triangle";
-  interpolation_ = gaussian_                    ? Interpolation::kBSpline
+  interpolation_ = gaussian_                   ? Interpolation::kBSpline
                    : o.filter == "catmull-rom" ? Interpolation::kCatmullRom
                                                : Interpolation::kBilinear;
 }
@@ -166,8 +165,8 @@ bool TextureFilter::add_level(const TextureRegion& region, const Ellipse& ellips
 }
 
 template <class T>
-void TextureFilter::add_texels(const TextureImage::Level& level, Interpolation way, float s, float t, float weight,
-                               float* out) const {
+void TextureFilter::add_texels(const TextureImage::Level& level, Interpolation way, float s, float t,
+                               float weight, float* out) const {
   if constexpr (!std::is_same_v<T, float>) weight /= static_cast<float>(std::numeric_limits<T>::max());
   const Taps columns = taps(way, s * static_cast<float>(level.width), level.width, wrap_[0]),
              rows = taps(way, t * static_cast<float>(level.height), level.height, wrap_[1]);

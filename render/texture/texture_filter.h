@@ -6,8 +6,9 @@
 
 namespace render {
 
-/// A region of a texture: its middle, and how s and t change along its two sides; (0, 0) is the upper left corner
-/// of the image, (1, 1) the lower right one. The parts of the image by which the region is blurred are apart.
+/// A region of a texture: its middle, and how s and t change along its two sides; (0, 0) is the upper left
+/// corner of the image, (1, 1) the lower right one. The parts of the image by which the region is blurred are
+/// apart.
 struct TextureRegion {
   float s, t, s_u, t_u, s_v, t_v;
   float sblur = 0, tblur = 0;
@@ -15,21 +16,23 @@ struct TextureRegion {
 
 /// Takes the same kind of mean of one texture again and again.
 ///
-/// The sides and the blur, as the spread they have together (a covariance), are an ellipse with a long and a short
-/// axis. The short one decides the level; along the long one several places are looked at, by interpolation in the two
-/// nearest levels. Level and places are such that what is looked at has the spread of the region. (The Feline of
-/// McCormack, Perry, Farkas and Jouppi, 1999, on the ellipses of Heckbert, 1989.)
+/// The sides and the blur, as the spread they have together (a covariance), are an ellipse with a long and a
+/// short axis. The short one decides the level; along the long one several places are looked at, by
+/// interpolation in the two nearest levels. Level and places are such that what is looked at has the spread
+/// of the region. (The Feline of McCormack, Perry, Farkas and Jouppi, 1999, on the ellipses of Heckbert,
+/// 1989.)
 class TextureFilter {
 public:
   /// For `channels` channels from `options` and the lookup.
-  TextureFilter(const TextureImage& image, const slvm::TextureLookup& lookup, TextureWrap swrap, TextureWrap twrap);
+  TextureFilter(const TextureImage& image, const slvm::TextureLookup& lookup, TextureWrap swrap,
+                TextureWrap twrap);
   /// False: texels cannot be read (image.problem()).
   bool mean(const TextureRegion& region, float* out) const;
 
 private:
   enum class Interpolation : uint8_t { kNearest, kBilinear, kBSpline, kCatmullRom };
   struct Ellipse {
-    float s = 0, t = 0;            ///< half of the long axis, in parts of the image
+    float s = 0, t = 0;              ///< half of the long axis, in parts of the image
     float longest = 0, shortest = 0; ///< the axes, in texels
   };
   Ellipse ellipse_of(const TextureRegion& region) const;

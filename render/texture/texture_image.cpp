@@ -14,7 +14,9 @@ TextureHeader::Size half_of(TextureHeader::Size s) {
 }
 
 TextureWrap wrap_of(const std::string& name) {
-  return name == "periodic" ? TextureWrap::kPeriodic : name == "clamp" ? TextureWrap::kClamp : TextureWrap::kBlack;
+  return name == "periodic" ? TextureWrap::kPeriodic
+         : name == "clamp"  ? TextureWrap::kClamp
+                            : TextureWrap::kBlack;
 }
 
 /// The texels of a side that one of a shorter side covers, the first and the last of them in parts.
@@ -31,7 +33,8 @@ std::vector<Cover> covers(int from, int to) {
     const double begin = i * size, end = std::min(begin + size, static_cast<double>(from));
     c.first = static_cast<int>(begin);
     for (int k = c.first; k < end && k < from; ++k)
-      c.weights.push_back(static_cast<float>((std::min(end, k + 1.0) - std::max(begin, static_cast<double>(k))) / size));
+      c.weights.push_back(
+          static_cast<float>((std::min(end, k + 1.0) - std::max(begin, static_cast<double>(k))) / size));
   }
   return out;
 }
@@ -51,7 +54,8 @@ void shrink(TextureHeader::Size from, const std::byte* texels, TextureHeader::Si
   std::vector<float> sum(channels);
   auto value = [&](int x, int y, size_t c) {
     T v;
-    const size_t at = (static_cast<size_t>(y) * static_cast<size_t>(from.width) + static_cast<size_t>(x)) * channels + c;
+    const size_t at =
+        (static_cast<size_t>(y) * static_cast<size_t>(from.width) + static_cast<size_t>(x)) * channels + c;
     std::memcpy(&v, texels + at * sizeof(T), sizeof(T));
     return static_cast<float>(v);
   };
@@ -139,8 +143,8 @@ void TextureImage::load(size_t i) const {
   Stored& l = levels_[i];
   if (l.ready || !problem_.empty()) return;
   const auto channels = static_cast<size_t>(header_.channels);
-  std::vector<std::byte> texels(static_cast<size_t>(l.size.width) * static_cast<size_t>(l.size.height) * channels *
-                                texel_bytes(header_.type));
+  std::vector<std::byte> texels(static_cast<size_t>(l.size.width) * static_cast<size_t>(l.size.height) *
+                                channels * texel_bytes(header_.type));
   if (i < header_.levels.size()) {
     problem_ = reader_->read(i, texels);
     if (!problem_.empty()) return;

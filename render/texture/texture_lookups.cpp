@@ -42,7 +42,8 @@ std::unique_ptr<TextureReader> open_texture(const std::string& file, std::string
 
 /// Looks up every active point; `at(point)` gives its region, without blur.
 template <class F>
-std::string look_up(const TextureImage& image, const TextureLookup& l, TextureWrap swrap, TextureWrap twrap, F&& at) {
+std::string look_up(const TextureImage& image, const TextureLookup& l, TextureWrap swrap, TextureWrap twrap,
+                    F&& at) {
   const TextureFilter filter(image, l, swrap, twrap);
   for (size_t i = 0; i < l.points; ++i) {
     if (!l.active(i)) continue;
@@ -126,28 +127,31 @@ std::string TextureLookups::environment(const std::string& file, const TextureLo
   std::string problem;
   const auto image = find(file, problem);
   if (!image) return problem;
-  return look_up(*image, l, TextureWrap::kPeriodic, TextureWrap::kClamp, [&](size_t i) { return latlong(l, i); });
+  return look_up(*image, l, TextureWrap::kPeriodic, TextureWrap::kClamp,
+                 [&](size_t i) { return latlong(l, i); });
 }
 
-bool TextureLookups::info(const std::string& file, std::string_view field, const slvm::Matrix4& current_to_world,
-                          Value& out) {
+bool TextureLookups::info(const std::string& file, std::string_view field,
+                          const slvm::Matrix4& current_to_world, Value& out) {
   std::string problem;
   const auto image = find(file, problem);
   if (!image) return false;
   const TextureHeader& h = image->header();
   if (field == "resolution") {
-    out = {Type::kFloat, 2, {static_cast<float>(h.levels[0].width), static_cast<float>(h.levels[0].height)}, {}};
+    out = {
+        Type::kFloat, 2, {static_cast<float>(h.levels[0].width), static_cast<float>(h.levels[0].height)}, {}};
   } else if (field == "channels") {
     out = {Type::kFloat, 0, {static_cast<float>(h.channels)}, {}};
   } else if (field == "type") {
-    std::string name = h.format == "Shadow"                  ? "shadow"
+    std::string name = h.format == "Shadow"                    ? "shadow"
                        : h.format.find("Env") != h.format.npos ? "environment"
                                                                : "texture";
     out = {Type::kString, 0, {}, {name}};
   } else if (field == "viewingmatrix" && !h.world_to_camera.empty()) {
     out = matrix_value(current_to_world, h.world_to_camera);
   } else if (field == "projectionmatrix" && !h.world_to_screen.empty()) {
-    // From the image plane of "screen" space to x right and y up, -1 to 1 in the picture: "screen" is so already.
+    // From the image plane of "screen" space to x right and y up, -1 to 1 in the picture: "screen" is so
+    // already.
     out = matrix_value(current_to_world, h.world_to_screen);
   } else {
     return false;

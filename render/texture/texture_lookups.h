@@ -16,14 +16,16 @@ namespace render {
 /// For many threads at once. Functions return "" or why nothing can be seen.
 class TextureLookups {
 public:
-  /// Beyond the limit textures nobody looked at for longest leave the memory; they are read again when they are wanted.
+  /// Beyond the limit textures nobody looked at for longest leave the memory; they are read again when they
+  /// are wanted.
   explicit TextureLookups(float memory_megabytes);
 
   std::string texture(const std::string& file, const slvm::TextureLookup& lookup);
   /// Of a latitude-longitude map.
   std::string environment(const std::string& file, const slvm::TextureLookup& lookup);
   /// slvm::TextureServices::info.
-  bool info(const std::string& file, std::string_view field, const slvm::Matrix4& current_to_world, slvm::Value& out);
+  bool info(const std::string& file, std::string_view field, const slvm::Matrix4& current_to_world,
+            slvm::Value& out);
   /// Files read so far, and bytes of texels in memory.
   std::pair<long long, long long> usage();
 

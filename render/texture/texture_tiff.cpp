@@ -144,7 +144,8 @@ bool TiffTexture::read_tiles(const Target& to, uint16_t plane, size_t offset, si
   if (width == 0 || height == 0 || tile.size() < width * height * bytes) return false;
   for (size_t y = 0; y < to.height; y += height)
     for (size_t x = 0; x < to.width; x += width) {
-      if (TIFFReadTile(t, tile.data(), static_cast<uint32_t>(x), static_cast<uint32_t>(y), 0, plane) < 0) return false;
+      if (TIFFReadTile(t, tile.data(), static_cast<uint32_t>(x), static_cast<uint32_t>(y), 0, plane) < 0)
+        return false;
       for (size_t row = 0; row < std::min(height, to.height - y); ++row)
         spread(tile.data() + row * width * bytes, std::min(width, to.width - x), bytes,
                to.texels.data() + ((y + row) * to.width + x) * to.texel + offset, to.texel);

@@ -1,4 +1,5 @@
-// Textures in TIFF files: plain pictures, and the tiled files with levels that txmake and its relatives write.
+// Textures in TIFF files: plain pictures, and the tiled files with levels that txmake and its relatives
+// write.
 #pragma once
 
 #include "render/texture/texture_image.h"

@@ -72,7 +72,7 @@ template <class Function> struct ForTarget {
 
 /// Of functions, best first, the first that this machine can run.
 template <class Function> Function* best_of(std::initializer_list<ForTarget<Function>> functions) {
-  static const int64_t supported = supported_targets();
+  const int64_t supported = supported_targets();
   for (const auto& f : functions)
     if (supported & f.target) return f.function;
   return functions.end()[-1].function;

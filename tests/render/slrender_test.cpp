@@ -50,7 +50,7 @@ TEST_F(SlrenderTest, pictures_and_shadows_need_no_openimageio) {
   EXPECT_TRUE(exists("a.shd"));
   EXPECT_EQ(alone("Hider \"depthmask\" \"zfile\" \"a.shd\" Display \"c\" \"tiff\" \"rgb\" " + scene), "");
   EXPECT_THAT(alone("Display \"a.exr\" \"openexr\" \"rgba\" " + scene),
-              HasSubstr("without anemone_images.so (OpenImageIO) there are no textures"));
+              HasSubstr("without anemone_images.so (OpenImageIO) there are only TIFF and PNG files"));
 }
 
 TEST_F(SlrenderTest, statistics_as_text_and_json) {

@@ -43,7 +43,8 @@ private:
 class Filter : public ::testing::Test {
 protected:
   void make(int width, int height, Made::Function f, int channels = 1) {
-    image_ = std::make_unique<TextureImage>(std::make_unique<Made>(width, height, std::move(f), channels), memory_);
+    image_ = std::make_unique<TextureImage>(std::make_unique<Made>(width, height, std::move(f), channels),
+                                            memory_);
     lookup_.channels = 1;
   }
   float mean(TextureRegion region) const {
@@ -91,7 +92,8 @@ float brute_force(int size, const Made::Function& f, const TextureRegion& r) {
   double sum = 0;
   for (int j = 0; j < kSide; ++j)
     for (int i = 0; i < kSide; ++i) {
-      const float a = (static_cast<float>(i) + 0.5f) / kSide - 0.5f, b = (static_cast<float>(j) + 0.5f) / kSide - 0.5f;
+      const float a = (static_cast<float>(i) + 0.5f) / kSide - 0.5f,
+                  b = (static_cast<float>(j) + 0.5f) / kSide - 0.5f;
       const float s = r.s + a * r.s_u + b * r.s_v, t = r.t + a * r.t_u + b * r.t_v;
       auto cell = [&](float x) {
         const int k = static_cast<int>(std::floor(x * static_cast<float>(size))) % size;
@@ -106,7 +108,8 @@ float brute_force(int size, const Made::Function& f, const TextureRegion& r) {
 TEST_F(Filter, regions_are_near_the_mean_of_their_texels) {
   constexpr int kSize = 128;
   const Made::Function waves = [](int x, int y, int) {
-    return 0.5f + 0.25f * std::sin(static_cast<float>(x) * 0.098f) + 0.25f * std::cos(static_cast<float>(y) * 0.147f);
+    return 0.5f + 0.25f * std::sin(static_cast<float>(x) * 0.098f) +
+           0.25f * std::cos(static_cast<float>(y) * 0.147f);
   };
   make(kSize, kSize, waves);
   std::mt19937 random(7);
@@ -115,7 +118,7 @@ TEST_F(Filter, regions_are_near_the_mean_of_their_texels) {
   constexpr int kTrials = 300;
   for (int k = 0; k < kTrials; ++k) {
     const float a = angle(random), u = side(random), v = side(random);
-    const TextureRegion r{place(random), place(random),     u * std::cos(a),
+    const TextureRegion r{place(random),   place(random),    u * std::cos(a),
                           u * std::sin(a), -v * std::sin(a), v * std::cos(a)};
     const double error = static_cast<double>(mean(r) - brute_force(kSize, waves, r));
     worst = std::max(worst, std::abs(error));
@@ -155,7 +158,9 @@ TEST_F(Filter, blur_is_a_region_of_its_own) {
 }
 
 TEST_F(Filter, ramps_stay_what_they_are_under_all_filters) {
-  make(64, 64, [](int x, int y, int) { return (static_cast<float>(x) + 0.5f) / 64 + (static_cast<float>(y) + 0.5f) / 32; });
+  make(64, 64, [](int x, int y, int) {
+    return (static_cast<float>(x) + 0.5f) / 64 + (static_cast<float>(y) + 0.5f) / 32;
+  });
   for (const char* name : {"", "box", "disk", "triangle", "gaussian", "catmull-rom"}) {
     lookup_.options.filter = name;
     EXPECT_NEAR(mean({0.43f, 0.51f, 0, 0, 0, 0}), 0.43f + 2 * 0.51f, 1e-4f) << name;
@@ -175,7 +180,8 @@ TEST_F(Filter, cubic_filters_at_the_middle_of_a_texel) {
 }
 
 TEST_F(Filter, channels_that_are_not_there_are_filled) {
-  make(4, 4, [](int, int, int c) { return static_cast<float>(c + 1); }, 2);
+  make(
+      4, 4, [](int, int, int c) { return static_cast<float>(c + 1); }, 2);
   lookup_.channels = 3;
   lookup_.first_channel = 1;
   lookup_.options.fill = 0.25f;
@@ -193,7 +199,8 @@ TEST_F(Filter, regions_that_are_no_numbers_are_points) {
 TEST(TextureLevels, odd_sizes_keep_the_mean) {
   std::atomic<long long> memory{0};
   {
-    TextureImage image(std::make_unique<Made>(7, 5, [](int x, int y, int) { return static_cast<float>(x * y); }), memory);
+    TextureImage image(
+        std::make_unique<Made>(7, 5, [](int x, int y, int) { return static_cast<float>(x * y); }), memory);
     ASSERT_EQ(image.levels(), 3u); // 7 x 5, 3 x 2, 1 x 1
     EXPECT_EQ(memory, 0);          // nobody has looked yet
     const TextureImage::Level last = image.level(2);
@@ -224,9 +231,12 @@ protected:
       TIFFSetField(t, TIFFTAG_IMAGELENGTH, static_cast<uint32_t>(size));
       TIFFSetField(t, TIFFTAG_BITSPERSAMPLE, static_cast<uint16_t>(k.bits));
       TIFFSetField(t, TIFFTAG_SAMPLESPERPIXEL, static_cast<uint16_t>(k.channels));
-      TIFFSetField(t, TIFFTAG_SAMPLEFORMAT, static_cast<uint16_t>(k.bits == 32 ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT));
-      TIFFSetField(t, TIFFTAG_PHOTOMETRIC, static_cast<uint16_t>(k.channels >= 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK));
-      TIFFSetField(t, TIFFTAG_PLANARCONFIG, static_cast<uint16_t>(k.apart ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG));
+      TIFFSetField(t, TIFFTAG_SAMPLEFORMAT,
+                   static_cast<uint16_t>(k.bits == 32 ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT));
+      TIFFSetField(t, TIFFTAG_PHOTOMETRIC,
+                   static_cast<uint16_t>(k.channels >= 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK));
+      TIFFSetField(t, TIFFTAG_PLANARCONFIG,
+                   static_cast<uint16_t>(k.apart ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG));
       TIFFSetField(t, TIFFTAG_PIXAR_WRAPMODES, "periodic,clamp");
       if (k.channels == 2 || k.channels == 4) TIFFSetField(t, TIFFTAG_EXTRASAMPLES, uint16_t{1}, &k.extra);
       if (k.tile > 0) {
@@ -242,7 +252,9 @@ protected:
     }
     return path;
   }
-  static float value(int x, int y, int c) { return static_cast<float>(c == 0 ? x : c == 1 ? y : c == 2 ? x + y : 3) / 255; }
+  static float value(int x, int y, int c) {
+    return static_cast<float>(c == 0 ? x : c == 1 ? y : c == 2 ? x + y : 3) / 255;
+  }
   static void put(const TiffKind& k, int x, int y, int plane, std::vector<std::byte>& out) {
     for (int c = k.apart ? plane : 0; c < (k.apart ? plane + 1 : k.channels); ++c) {
       auto add = [&](auto v) {
@@ -273,12 +285,14 @@ protected:
         for (int y = y0; y < y0 + k.tile; ++y)
           for (int x = x0; x < x0 + k.tile; ++x)
             put(k, std::min(x, size - 1), std::min(y, size - 1), plane, tile);
-        TIFFWriteTile(t, tile.data(), static_cast<uint32_t>(x0), static_cast<uint32_t>(y0), 0, static_cast<uint16_t>(plane));
+        TIFFWriteTile(t, tile.data(), static_cast<uint32_t>(x0), static_cast<uint32_t>(y0), 0,
+                      static_cast<uint16_t>(plane));
       }
   }
 
   /// Looks up the middle of a texel of a file with 24 x 24 of them.
-  std::array<float, 3> texel(TextureLookups& lookups, const std::string& path, int x, int y, uint32_t first = 0) {
+  std::array<float, 3> texel(TextureLookups& lookups, const std::string& path, int x, int y,
+                             uint32_t first = 0) {
     slvm::TextureLookup l;
     uint64_t mask = 1;
     std::array<float, 3> out{};
@@ -356,7 +370,8 @@ TEST_F(Files, what_cannot_be_read_is_said_each_time) {
   folder_.write("early.tx", std::string("\xfa\xce\x00\x03 and so on", 14));
   for (int i = 0; i < 2; ++i) {
     texel(lookups, (folder_ / "early.tx").string(), 0, 0);
-    EXPECT_EQ(problem_, "it is in PRMan's own format of before TIFF; make it anew of its image, by MakeTexture");
+    EXPECT_EQ(problem_,
+              "it is in PRMan's own format of before TIFF; make it anew of its image, by MakeTexture");
   }
   // Texels end before the image does.
   const std::string path = tiff("short.tif", {8, 3, 0, false});
