@@ -8,7 +8,7 @@ import re
 
 import tree
 
-SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/renderer_services"]
+SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -21,33 +21,36 @@ ALLOWED = {
     "slvm/grid": ["slvm/format", "slvm/wide", "slvm/support", "slvm/value"],
     "slvm/textures": ["slvm/support", "slvm/value"],
     "slvm/rays": ["slvm/format"],
-    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/format", "slvm/support", "slvm/value"],
+    "slvm/subsurface": [],
+    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
     "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
     "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",
                      "slvm/plugin", "slvm/support"] + SLVM_TOP,
     "slvm/exec": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/machine", "slvm/evaluator",
                   "slvm/plugin", "slvm/support"] + SLVM_TOP,
-    "slvm/tools": ["slvm", "slc"],
+    "slvm/tools": ["slvm", "slc", "stdlib/scattering"],
     # The module of sltest that holds OpenImageIO takes its textures from the renderer.
     "slvm/tools/sltest/texture_oiio": ["slvm", "render/texture"],
     # Its module for scenes is the renderer.
-    "slvm/tools/sltest/ray_render": ["slvm", "render", "slvm/tools/sltest/ray_scene"],
+    "slvm/tools/sltest/ray_render": ["slvm", "render", "slvm/tools/sltest/ray_scene", "stdlib/scattering"],
     "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
-    "render": ["public"],
+    "render": ["public", "stdlib/scattering"],
     # What slrender and the C interface share: shaders are compiled on the fly.
     "render/setup": ["render", "slc", "public"],
     "render/ri": ["render", "public"],
     "render/tools": ["render", "slc", "public"],
     "stdlib": [],
     "stdlib/subsurface": ["slvm/support"],
+    # What a program hangs into its services.
+    "stdlib/scattering": ["public", "stdlib/subsurface"],
     "stdlib/dso": ["public", "stdlib/subsurface"], # and the headers for plug-ins
     "stdlib/tools": ["stdlib/subsurface", "slvm/support"],
     "python": ["slc", "public"],
     "docs": ["slvm", "slc/diag", "render/rib"],
-    "tests": ["slc", "slvm", "render", "stdlib/subsurface", "tests"],
+    "tests": ["slc", "slvm", "render", "stdlib/subsurface", "stdlib/scattering", "tests"],
     "tests/external": ["slc", "public"],
 }
 # The only folders that may use these libraries.

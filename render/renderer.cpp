@@ -8,10 +8,12 @@
 #include "render/rays/ray_tracer.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
+#include "render/state/search_path.h"
 #include "render/statistics.h"
 #include "render/texture/depth_image.h"
 #include "render/texture/find_image.h"
 #include "render/texture/texture_maps.h"
+#include "stdlib/scattering/cloud_lookups.h"
 
 #include <fmt/format.h>
 
@@ -51,6 +53,7 @@ struct Renderer::Impl {
   slvm::Machine machine;
   ShaderCache cache;
   Interpreter interpreter;
+  subsurface::CloudCache clouds;
   std::vector<std::string> written;
   /// Run-time messages already shown, by file, line, shader and text.
   std::set<std::string> replaced; ///< names of textures whose replacements were reported
@@ -77,6 +80,20 @@ TextureMaps::Settings texture_settings(const Options& options) {
   return s;
 }
 
+/// For a frame; the options must live as long.
+subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Options& options) {
+  subsurface::CloudCache::Settings s;
+  s.most_bytes = static_cast<size_t>(options.octree_megabytes * (1 << 20));
+  if (auto it = options.named.find("subsurface:treefolder"); it != options.named.end())
+    s.folder = it->second.strings[0];
+  clouds.configure(std::move(s));
+  return subsurface::CloudLookups(clouds, [&options](std::string_view name) {
+    const auto folders = options.search_paths.find("texture");
+    if (folders == options.search_paths.end()) return std::string(name);
+    return find_file(name, folders->second).value_or(std::string(name));
+  });
+}
+
 } // namespace
 
 void Renderer::Impl::render(Scene& frame) {
@@ -97,7 +114,8 @@ void Renderer::Impl::render(Scene& frame) {
   flush();
   if (s.progress) s.progress(0);
   TextureMaps textures(texture_settings(frame.options));
-  SceneServices services(frame, shaders, textures, settings.print);
+  subsurface::CloudLookups lookups = cloud_lookups(clouds, frame.options);
+  SceneServices services(frame, shaders, textures, lookups, settings.print);
   RayTracer rays(frame, machine, shaders, services);
   services.set_rays(&rays);
   VmShading shading(machine, shaders, services);
@@ -129,9 +147,9 @@ void Renderer::Impl::render(Scene& frame) {
                           fmt::format("texture \"{}\" is missing: \"{}\" is used", wanted, used));
   for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
     if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
-      diagnostics.warning({}, "display",
-                          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0",
-                                      s.aovs[a].name));
+      diagnostics.warning(
+          {}, "display",
+          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0", s.aovs[a].name));
   if (report.bad_colours > 0)
     diagnostics.warning({}, "nan",
                         fmt::format("{} shading points have a colour that is not a finite number; "
