@@ -193,6 +193,95 @@ TEST_F(SubsurfaceByMaps, BlockersInside) {
   }
 }
 
+// A surface that calls the built-in function, and one that calls the plug-in's.
+const char* const kBuiltIn = R"(
+surface builtin(uniform string cloud = "";) {
+  Oi = 1;
+  Ci = subsurface(P, N, "filename", cloud, "albedo", color (.8, .5, .2), "diffusemeanfreepath", color (2, 1, 1));
+}
+)";
+const char* const kPluggedIn = R"(
+surface pluggedin(uniform string cloud = "";) {
+  Oi = 1;
+  Ci = diffusion(transform("world", P), cloud, color (.8, .5, .2), color (2, 1, 1), 1.3, .05);
+}
+)";
+
+/// Passes for a plate lit from above: its cloud, and pictures of it.
+std::string lit_plate(int number, const std::string& cloud, double light) {
+  return frame(
+      number, "null.tif", 11, 200,
+      fmt::format("LightSource \"distantlight\" 1 \"from\" [0 0 -1] \"to\" [0 0 0] \"intensity\" {}\n"
+                  "Surface \"bakepoints\" \"file\" \"{}\" \"lit\" 1\n{}",
+                  light, cloud, kPlate));
+}
+std::string look(int number, const std::string& output, const std::string& surface,
+                 const std::string& cloud) {
+  return frame(number, output, 0.5, 8,
+               fmt::format("Surface \"{}\" \"cloud\" \"{}\"\n{}", surface, cloud, kPlate));
+}
+
+TEST_F(SubsurfacePasses, TheBuiltInFunctionAndThePlugInAgree) {
+  file("builtin.sl", kBuiltIn);
+  file("pluggedin.sl", kPluggedIn);
+  std::filesystem::create_directories(directory_ / "maps");
+  render(lit_plate(1, "maps/lit.ply", 1) + look(2, "plug.tif", "pluggedin", "maps/lit.ply") +
+         "Option \"searchpath\" \"texture\" \"maps\"\n" + look(3, "built.tif", "builtin", "lit.ply"));
+  const auto built = pixels("built.tif"), plugged = pixels("plug.tif");
+  ASSERT_EQ(built.size(), plugged.size());
+  for (size_t i = 0; i < built.size(); ++i)
+    EXPECT_NEAR(built[i], plugged[i], 1e-5f);
+  EXPECT_NEAR(middle("built.tif", 0), 0.8, 0.02);
+  EXPECT_NEAR(middle("built.tif", 1), 0.5, 0.005);
+}
+
+// What frames keep is good until a pass writes the cloud anew.
+TEST_F(SubsurfacePasses, AFrameSeesTheCloudOfThePassBefore) {
+  file("builtin.sl", kBuiltIn);
+  file("pluggedin.sl", kPluggedIn);
+  for (const char* surface : {"builtin", "pluggedin"}) {
+    render(lit_plate(1, "lit.ply", 1) + look(2, "one.tif", surface, "lit.ply") + lit_plate(3, "lit.ply", 2) +
+           look(4, "two.tif", surface, "lit.ply"));
+    EXPECT_NEAR(middle("two.tif", 1), 2 * middle("one.tif", 1), 1e-4) << surface;
+  }
+}
+
+TEST_F(SubsurfacePasses, TreesAreKeptBetweenRunsWhereTheSceneSays) {
+  file("builtin.sl", kBuiltIn);
+  file("pluggedin.sl", kPluggedIn);
+  namespace fs = std::filesystem;
+  const std::string option = "Option \"subsurface\" \"string treefolder\" \"trees\"\n";
+  auto tree_times = [&] {
+    std::vector<fs::file_time_type> times;
+    for (const auto& entry : fs::directory_iterator(directory_ / "trees"))
+      times.push_back(entry.last_write_time());
+    return times;
+  };
+  render(lit_plate(1, "lit.ply", 1));
+  render(look(1, "one.tif", "builtin", "lit.ply"));
+  EXPECT_FALSE(fs::exists(directory_ / "trees"));
+  render(option + look(1, "two.tif", "builtin", "lit.ply"));
+  const auto first = tree_times();
+  ASSERT_EQ(first.size(), 1u);
+  for (const char* surface : {"builtin", "pluggedin"}) {
+    render(option + look(1, "three.tif", surface, "lit.ply"));
+    EXPECT_EQ(tree_times(), first); // it was read, not written
+    EXPECT_NEAR(middle("three.tif", 1), middle("one.tif", 1), 1e-5);
+  }
+  EXPECT_EQ(pixels("two.tif"), pixels("one.tif"));
+  render(lit_plate(1, "lit.ply", 3));
+  render(option + look(1, "four.tif", "builtin", "lit.ply"));
+  EXPECT_NEAR(middle("four.tif", 1), 3 * middle("one.tif", 1), 1e-3);
+  EXPECT_NE(tree_times(), first);
+  file("occupied", "no folder");
+  file("a.rib", "Option \"subsurface\" \"string treefolder\" \"occupied\"\n" +
+                    look(1, "five.tif", "builtin", "lit.ply"));
+  const Outcome o = run("a.rib");
+  EXPECT_THAT(o.text, HasSubstr("builtin.sl:4: subsurface: cannot write 'occupied/lit-"));
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(pixels("five.tif"), pixels("four.tif"));
+}
+
 TEST_F(SubsurfacePasses, AFileThatIsMissingIsNamedWithTheShadersLine) {
   file("a.rib",
        frame(1, "out.tif", 0.5, 8,
