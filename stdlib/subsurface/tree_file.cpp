@@ -2,6 +2,7 @@
 
 #include "stdlib/subsurface/ply.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -83,6 +84,15 @@ private:
   size_t at_ = 0;
   bool fine_ = true;
 };
+
+template <class T> bool all_finite(const std::vector<T>& values) {
+  return std::all_of(values.begin(), values.end(), [](const T& v) {
+    if constexpr (std::is_same_v<T, float>)
+      return std::isfinite(v);
+    else
+      return is_finite(v);
+  });
+}
 
 using Node = PointOctree::Node;
 using Group = DiffusionTree::Group;
@@ -167,7 +177,9 @@ slvm::Result<DiffusionTree> TreeFile::parse(std::span<const std::byte> bytes, co
   tree.flux_ = r.column<Color>(header.points);
   if (header.normals) tree.normal_ = r.column<Vec3>(header.points);
   if (header.albedo) tree.albedo_ = r.column<Color>(header.points);
-  if (!r.complete()) return error("it is damaged");
+  if (!r.complete() || !all_finite(positions) || !all_finite(tree.area_) || !all_finite(tree.flux_) ||
+      !all_finite(tree.normal_) || !all_finite(tree.albedo_))
+    return error("it is damaged");
   auto octree = PointOctree::of_parts(std::move(nodes), std::move(order), std::move(positions));
   if (!octree) return error(octree.error());
   tree.octree_ = std::move(*octree);
