@@ -91,15 +91,15 @@ color lightat(point Pi; normal Ni) {
   return sum;
 }
 
-/* How many free paths the rays of diffusion go to either side of P. */
-#define SUBSURFACE_PROBE 3
+/* How many free paths from P places of diffusion may be. Of what comes from a plane the rest is below one percent. */
+#define SUBSURFACE_PROBE 4
 
 /* How densely rays along one axis find a place: those of diffusionplace(), spread on the plane across the axis, on a surface that is turned
- * from that plane. offset: from P to the place; 0 beyond the ends of the rays.
+ * from that plane. offset: from P to the place.
  */
 float densityalong(vector axis; vector offset; normal Nu; float reach) {
-  float height = offset . axis, r = length(offset - height * axis) / reach;
-  return abs(height) <= SUBSURFACE_PROBE * reach ? exp(-r) * abs(Nu . axis) / (2 * PI * reach * reach) : 0;
+  float r = length(offset - (offset . axis) * axis) / reach;
+  return exp(-r) * abs(Nu . axis) / (2 * PI * reach * reach);
 }
 
 /* Diffusion of all lights: rays find places of the surface round P, where the light is that of their own, then the dipole brings it to P.
@@ -136,7 +136,8 @@ color diffusionscattering(point P; normal Nn; color albedo; color freepath; floa
       if (map != "") there *= color texture(map, si, ti, si, ti, si, ti, si, ti, "samples", 1);
       float density = along * densityalong(vector Nn, offset, Nu, reach) + across * densityalong(base1, offset, Nu, reach) +
                       across * densityalong(base2, offset, Nu, reach);
-      if (density > 0) added += lightat(Pi, Nu) * dipoleof(length(offset), there, freepath, eta) / density;
+      /* In a ball, all of which rays along any axis reach: beyond it some would, and what they find would weigh far too much. */
+      if (length(offset) < probe && density > 0) added += lightat(Pi, Nu) * dipoleof(length(offset), there, freepath, eta) / density;
     }
     sum += added;
   }

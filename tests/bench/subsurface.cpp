@@ -4,13 +4,15 @@
 //
 // The samples are those of a ball of white marble, 40 mm across, lit from above.
 #include "stdlib/subsurface/lit_cloud.h"
-#include "tests/temp_folder.h"
 #include "tests/unit/subsurface/surfaces.h"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <string>
+#include <unistd.h>
 
 namespace {
 
@@ -98,15 +100,28 @@ void print(size_t samples, const Scene& scene, float epsilon, const Exact& exact
               exact.seconds / row.seconds, row.terms, row.rms);
 }
 
+/// A folder that goes with the program.
+struct Folder {
+  Folder()
+      : path(std::filesystem::temp_directory_path() / ("subsurface_bench_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  std::filesystem::path path;
+};
+
 /// What it costs to have a cloud of 150 000 points ready, by where it is kept. False: something failed.
 bool print_caches() {
-  const anemone::test::TempFolder folder;
-  const std::string file = (folder / "lit.ply").string();
+  const Folder folder;
+  const std::string file = (folder.path / "lit.ply").string();
   PointCloud cloud = test::ball(150000, kRadius);
   for (Vec3 p : cloud.position)
     cloud.albedo.push_back({0.5f + p.x / (4 * kRadius), 0.5f, 0.3f});
   if (!write_point_cloud(file, cloud)) return false;
-  const CloudCache::Settings keep{size_t{1} << 30, (folder / "trees").string()};
+  const CloudCache::Settings keep{size_t{1} << 30, (folder.path / "trees").string()};
   bool fine = true;
   auto get = [&](CloudCache& cache) {
     const auto found = cache.get(file);
