@@ -282,6 +282,40 @@ TEST_F(SubsurfacePasses, TreesAreKeptBetweenRunsWhereTheSceneSays) {
   EXPECT_EQ(pixels("five.tif"), pixels("four.tif"));
 }
 
+// Diffusion, single scattering and reflection as pictures of their own add up to the whole.
+TEST_F(SubsurfacePasses, ComponentsAddUp) {
+  auto look_at = [&](int number, const std::string& output, int diffuse, int single, int specular) {
+    return frame(
+        number, output, 0.5, 8,
+        fmt::format(
+            "{}Attribute \"visibility\" \"trace\" 1\nSurface \"translucentsolid\" \"cloud\" \"lit.ply\" "
+            "\"color albedo\" [.8 .5 .2] \"color freepath\" [2 1 1] \"Kdiffuse\" {} \"Ksingle\" {} "
+            "\"Kspecular\" {} \"samples\" 64\n{}",
+            kSlantedLight, diffuse, single, specular, kPlate));
+  };
+  render(lit_plate(1, "lit.ply", 1) + look_at(2, "all.tif", 1, 1, 1) + look_at(3, "diffuse.tif", 1, 0, 0) +
+         look_at(4, "single.tif", 0, 1, 0) + look_at(5, "specular.tif", 0, 0, 1));
+  EXPECT_GT(mean("single.tif"), 0.001);
+  EXPECT_GT(mean("diffuse.tif"), 0.1);
+  for (size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(mean("all.tif", c), mean("diffuse.tif", c) + mean("single.tif", c) + mean("specular.tif", c),
+                2e-4);
+}
+
+// A wall just above a translucent plate receives what comes out of it.
+TEST_F(SubsurfacePasses, TranslucencyCountsWhenLightBleeds) {
+  file("builtin.sl", kBuiltIn);
+  file("wall.sl", "surface wall() { Oi = 1; Ci = indirectdiffuse(P, normalize(N), 64); }\n");
+  render(lit_plate(1, "lit.ply", 1) + look(2, "plate.tif", "builtin", "lit.ply") +
+         frame(3, "wall.tif", 0.2, 8,
+               "Attribute \"visibility\" \"diffuse\" 1\nSurface \"builtin\" \"cloud\" \"lit.ply\"\n" +
+                   std::string(kPlate) +
+                   "Surface \"wall\"\nReverseOrientation\nPolygon \"P\" [-1 -1 -.05 -1 1 -.05 1 1 -.05 1 -1 "
+                   "-.05]\n"));
+  for (size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(mean("wall.tif", c), mean("plate.tif", c), 0.02 * mean("plate.tif", c));
+}
+
 TEST_F(SubsurfacePasses, AFileThatIsMissingIsNamedWithTheShadersLine) {
   file("a.rib",
        frame(1, "out.tif", 0.5, 8,
