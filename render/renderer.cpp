@@ -41,6 +41,7 @@ struct Renderer::Impl {
 
   void render(Scene& scene);
   void report_runtime_messages();
+  void report_replaced(TextureMaps& textures);
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
   void make_what_rays_see(Scene& scene);
@@ -141,10 +142,7 @@ void Renderer::Impl::render(Scene& frame) {
     if (std::string why = preview->finish(); !why.empty())
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
-  for (const auto& [wanted, used] : textures.replaced())
-    if (replaced.insert(wanted).second)
-      diagnostics.warning({}, "texture",
-                          fmt::format("texture \"{}\" is missing: \"{}\" is used", wanted, used));
+  report_replaced(textures);
   for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
     if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
       diagnostics.warning(
@@ -228,6 +226,13 @@ void Renderer::Impl::report_runtime_messages() {
     else
       diagnostics.warning({}, "runtime", text);
   }
+}
+
+void Renderer::Impl::report_replaced(TextureMaps& textures) {
+  for (const auto& [wanted, used] : textures.replaced())
+    if (replaced.insert(wanted).second)
+      diagnostics.warning({}, "texture",
+                          fmt::format("texture \"{}\" is missing: \"{}\" is used", wanted, used));
 }
 
 /// When nothing of the frame is left: plug-ins may have something to say then, too.
