@@ -189,6 +189,16 @@ float pastblockers(uniform string inner; point p; float soft) {
   return through;
 }
 
+/* The part of a light that other things leave to P, by a shadow map of them alone ("": nothing is in the way): the maps of the functions below
+ * hold the translucent object, whose places are where its depths are, and cannot show what casts shadows on it. For a loop over lights:
+ * `sum += Cl * pastothers(outer, P) * diffusionscatteringbymap(...)`.
+ */
+float pastothers(uniform string outer; point P) {
+  float through = 1;
+  if (outer != "") through = 1 - float shadow(outer, P);
+  return through;
+}
+
 /* As singlescattering(), by the light's shadow map. normals: a picture of normals from the light, "": the light enters straight. inner, soft:
  * as for pastblockers().
  */

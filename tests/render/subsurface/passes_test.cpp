@@ -124,15 +124,15 @@ TEST_F(SubsurfacePasses, BlockingByACloudInside) {
 
 const char* const kByMap = "#include \"subsurface.h\"\n"
                            R"(
-surface bymap(uniform string map = "", normals = "", inner = ""; uniform float diffusion = 0;) {
+surface bymap(uniform string map = "", normals = "", inner = "", outer = ""; uniform float diffusion = 0;) {
   vector In = normalize(I);
   normal Nn = normalize(N);
   color c = 0;
   illuminance(P, Nn, PI) {
     if (diffusion == 0)
-      c += Cl * singlescatteringbymap(P, Nn, In, L, .2, 1.8, .6, 1.4, 16, map, normals, inner, .05);
+      c += Cl * pastothers(outer, P) * singlescatteringbymap(P, Nn, In, L, .2, 1.8, .6, 1.4, 16, map, normals, inner, .05);
     else
-      c += Cl * diffusionscatteringbymap(P, L, color (.8, .5, .5), color (.2, .2, .1), 1.3, 64, map, inner, .05);
+      c += Cl * pastothers(outer, P) * diffusionscatteringbymap(P, L, color (.8, .5, .5), color (.2, .2, .1), 1.3, 64, map, inner, .05);
   }
   Oi = 1;
   Ci = c;
@@ -186,8 +186,12 @@ TEST_F(SubsurfaceByMaps, BlockersInside) {
     render(light_view(1, "l", kStraight, kPlate) + light_view(2, "above", kStraight, above) +
            light_view(3, "below", kStraight, below) + picture(4, "free.tif", maps) +
            picture(5, "above.tif", maps + " \"inner\" \"abovez.tif\"") +
+           picture(7, "shaded.tif", maps + " \"outer\" \"abovez.tif\"") +
+           picture(8, "free2.tif", maps + " \"outer\" \"belowz.tif\"") +
            picture(6, "below.tif", maps + " \"inner\" \"belowz.tif\""));
     EXPECT_LT(mean("above.tif"), 1e-5); // beyond the edge of the map nothing blocks
+    EXPECT_LT(mean("shaded.tif"), 1e-5);
+    EXPECT_EQ(pixels("free2.tif"), pixels("free.tif"));
     EXPECT_GT(mean("free.tif"), 0.005);
     EXPECT_EQ(pixels("below.tif"), pixels("free.tif"));
   }
