@@ -137,9 +137,9 @@ std::vector<std::byte> TreeFile::format(const DiffusionTree& tree, const FileSta
   header.normals = !tree.normal_.empty();
   header.albedo = !tree.albedo_.empty();
   header.checksum = checksum_of(body);
-  std::vector<std::byte> bytes(sizeof header + body.size());
+  std::vector<std::byte> bytes(sizeof header);
   std::memcpy(bytes.data(), &header, sizeof header);
-  std::memcpy(bytes.data() + sizeof header, body.data(), body.size());
+  bytes.insert(bytes.end(), body.begin(), body.end());
   return bytes;
 }
 
