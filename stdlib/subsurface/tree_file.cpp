@@ -137,9 +137,9 @@ std::vector<std::byte> TreeFile::format(const DiffusionTree& tree, const FileSta
   header.normals = !tree.normal_.empty();
   header.albedo = !tree.albedo_.empty();
   header.checksum = checksum_of(body);
-  std::vector<std::byte> bytes(sizeof header);
+  std::vector<std::byte> bytes(sizeof header + body.size());
   std::memcpy(bytes.data(), &header, sizeof header);
-  bytes.insert(bytes.end(), body.begin(), body.end());
+  std::copy(body.begin(), body.end(), bytes.begin() + sizeof header);
   return bytes;
 }
 
