@@ -8,7 +8,7 @@ import re
 
 import tree
 
-SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/renderer_services"]
+SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -21,22 +21,23 @@ ALLOWED = {
     "slvm/grid": ["slvm/format", "slvm/wide", "slvm/support", "slvm/value"],
     "slvm/textures": ["slvm/support", "slvm/value"],
     "slvm/rays": ["slvm/format"],
-    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/format", "slvm/support", "slvm/value"],
+    "slvm/subsurface": [],
+    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
     "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
     "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",
                      "slvm/plugin", "slvm/support"] + SLVM_TOP,
     "slvm/exec": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/machine", "slvm/evaluator",
                   "slvm/plugin", "slvm/support"] + SLVM_TOP,
-    "slvm/tools": ["slvm", "slc"],
+    "slvm/tools": ["slvm", "slc", "stdlib/scattering"],
     # The module of sltest for textures takes them from the renderer.
     "slvm/tools/sltest/texture_files": ["slvm", "render/texture"],
     # Its module for scenes is the renderer.
-    "slvm/tools/sltest/ray_render": ["slvm", "render", "slvm/tools/sltest/ray_scene"],
+    "slvm/tools/sltest/ray_render": ["slvm", "render", "slvm/tools/sltest/ray_scene", "stdlib/scattering"],
     "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
-    "render": ["public", "render/hider/quad_hits", "render/hider/window_weights"],
+    "render": ["public", "stdlib/scattering", "render/hider/quad_hits", "render/hider/window_weights"],
     # Compiled once for each SIMD target.
     "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
     "render/hider/window_weights": ["render", "public", "slvm/wide/targets"],
@@ -46,11 +47,13 @@ ALLOWED = {
     "render/tools": ["render", "slc", "public"],
     "stdlib": [],
     "stdlib/subsurface": ["slvm/support"],
+    # What a program hangs into its services.
+    "stdlib/scattering": ["public", "stdlib/subsurface"],
     "stdlib/dso": ["public", "stdlib/subsurface"], # and the headers for plug-ins
     "stdlib/tools": ["stdlib/subsurface", "slvm/support"],
     "python": ["slc", "public"],
     "docs": ["slvm", "slc/diag", "render/rib"],
-    "tests": ["slc", "slvm", "render", "stdlib/subsurface", "tests"],
+    "tests": ["slc", "slvm", "render", "stdlib/subsurface", "stdlib/scattering", "tests"],
     "tests/external": ["slc", "public"],
 }
 # The only folders that may use these libraries.

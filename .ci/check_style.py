@@ -10,7 +10,7 @@ MAX_FILE, MAX_FUNCTION, MAX_CMAKE = 800, 80, 60
 LONG_FUNCTIONS = {
     ("slvm/exec/interpreter.cpp", None): "the dispatch loop",
 }
-LIBRARIES = ("slc/", "slvm/", "render/", "stdlib/subsurface/")
+LIBRARIES = ("slc/", "slvm/", "render/", "stdlib/subsurface/", "stdlib/scattering/")
 NOT_IN_LIBRARIES = r"std::(?:cout|cerr|clog)\b|(?<![\w:.>])(?:std::)?(?:printf|puts|putchar|exit|abort|terminate|_exit)\s*\("
 LEFTOVERS = r"\b(?:TODO|FIXME|XXX|HACK|TBD)\b"
 MACHINE_PATHS = r"(?<![\w./{}])/(?:work|home|root|mnt|Users)/\w+"

@@ -22,7 +22,7 @@ endfunction()
 sl_package(slvm slvm slvm_plugin slvm_ir slvm_kernels slvm_wide slvm_format slvm_support)
 sl_package(slc slc)
 if(ANEMONE_RENDER)
-  sl_package(ri ri render_setup render render_texture render_rib)
+  sl_package(ri ri render_setup render render_texture render_rib sl_scattering sl_subsurface)
   install(FILES ${PROJECT_SOURCE_DIR}/render/ri/ri.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/anemone)
 endif()
 

@@ -8,10 +8,12 @@
 #include "render/rays/ray_tracer.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
+#include "render/state/search_path.h"
 #include "render/statistics.h"
 #include "render/texture/depth_image.h"
 #include "render/texture/find_image.h"
 #include "render/texture/texture_maps.h"
+#include "stdlib/scattering/cloud_lookups.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +41,7 @@ struct Renderer::Impl {
 
   void render(Scene& scene);
   void report_runtime_messages();
+  void report_replaced(TextureMaps& textures);
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
   void make_what_rays_see(Scene& scene);
@@ -51,6 +54,7 @@ struct Renderer::Impl {
   slvm::Machine machine;
   ShaderCache cache;
   Interpreter interpreter;
+  subsurface::CloudCache clouds;
   std::vector<std::string> written;
   /// Run-time messages already shown, by file, line, shader and text.
   std::set<std::string> replaced; ///< names of textures whose replacements were reported
@@ -77,6 +81,20 @@ TextureMaps::Settings texture_settings(const Options& options) {
   return s;
 }
 
+/// For a frame; the options must live as long.
+subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Options& options) {
+  subsurface::CloudCache::Settings s;
+  s.most_bytes = static_cast<size_t>(options.octree_megabytes * (1 << 20));
+  if (auto it = options.named.find("subsurface:treefolder"); it != options.named.end())
+    s.folder = it->second.strings[0];
+  clouds.configure(std::move(s));
+  return subsurface::CloudLookups(clouds, [&options](std::string_view name) {
+    const auto folders = options.search_paths.find("texture");
+    if (folders == options.search_paths.end()) return std::string(name);
+    return find_file(name, folders->second).value_or(std::string(name));
+  });
+}
+
 } // namespace
 
 void Renderer::Impl::render(Scene& frame) {
@@ -97,7 +115,8 @@ void Renderer::Impl::render(Scene& frame) {
   flush();
   if (s.progress) s.progress(0);
   TextureMaps textures(texture_settings(frame.options));
-  SceneServices services(frame, shaders, textures, settings.print);
+  subsurface::CloudLookups lookups = cloud_lookups(clouds, frame.options);
+  SceneServices services(frame, shaders, textures, lookups, settings.print);
   RayTracer rays(frame, machine, shaders, services);
   services.set_rays(&rays);
   VmShading shading(machine, shaders, services);
@@ -123,10 +142,7 @@ void Renderer::Impl::render(Scene& frame) {
     if (std::string why = preview->finish(); !why.empty())
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
-  for (const auto& [wanted, used] : textures.replaced())
-    if (replaced.insert(wanted).second)
-      diagnostics.warning({}, "texture",
-                          fmt::format("texture \"{}\" is missing: \"{}\" is used", wanted, used));
+  report_replaced(textures);
   for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
     if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
       diagnostics.warning(
@@ -210,6 +226,13 @@ void Renderer::Impl::report_runtime_messages() {
     else
       diagnostics.warning({}, "runtime", text);
   }
+}
+
+void Renderer::Impl::report_replaced(TextureMaps& textures) {
+  for (const auto& [wanted, used] : textures.replaced())
+    if (replaced.insert(wanted).second)
+      diagnostics.warning({}, "texture",
+                          fmt::format("texture \"{}\" is missing: \"{}\" is used", wanted, used));
 }
 
 /// When nothing of the frame is left: plug-ins may have something to say then, too.

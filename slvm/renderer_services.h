@@ -8,6 +8,7 @@
 
 #include "slvm/grid.h"
 #include "slvm/rays.h"
+#include "slvm/subsurface.h"
 #include "slvm/textures.h"
 
 #include <span>
@@ -70,6 +71,10 @@ public:
 
   /// Who traces rays; null: nobody, and rays hit nothing, with a run-time message.
   virtual RayServices* rays() { return nullptr; }
+
+  /// Who looks up clouds of lit points; null: nobody, and nothing comes from below surfaces, with a run-time
+  /// message.
+  virtual SubsurfaceServices* subsurface() { return nullptr; }
 
   /// Text of printf, in order within one grid, as it is printed. Warnings and errors of running shaders go
   /// another way: MachineOptions::on_message.

@@ -25,8 +25,10 @@ Value text(std::string_view s) {
 } // namespace
 
 SceneServices::SceneServices(const Scene& scene, const BoundShaders& shaders, slvm::TextureServices& textures,
+                             slvm::SubsurfaceServices& subsurface,
                              std::function<void(std::string_view)> print)
-    : scene_(scene), shaders_(shaders), textures_(textures), print_(std::move(print)) {
+    : scene_(scene), shaders_(shaders), textures_(textures), subsurface_(subsurface),
+      print_(std::move(print)) {
   auto add = [&](const std::string& name, const Matrix4& to_camera) {
     spaces_[name] = {to_camera, inverse_or_identity(to_camera)};
   };

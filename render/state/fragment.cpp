@@ -353,6 +353,11 @@ slvm::Result<size_t> fragment_mesh(const RequestCall& call, const Declarations& 
     pref.token = "vertex point ScatterPref";
     out.params.push_back(
         select(pref, {"ScatterPref", StorageClass::kVertex, slvm::Type::kPoint}, mesh, patch));
+    Param number;
+    number.token = "constant float ScatterFace";
+    number.integers = false;
+    number.numbers = {static_cast<float>(pieces[i].face)};
+    out.params.push_back(std::move(number));
     for (const auto& [param, declaration] : *vars)
       out.params.push_back(select(*param, declaration, mesh, patch));
     piece(out);

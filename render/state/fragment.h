@@ -14,11 +14,11 @@
 namespace render {
 
 /// The pieces of a SubdivisionMesh request: SubdivisionMesh requests with one face that is drawn. Their "P"
-/// is flat, x and y in [0, 1], y down, z 1/2; "vertex point ScatterPref" is where the mesh has its points;
-/// all other variables and tags are those of the mesh. All pieces have the same scale. The corners of faces
-/// turn the other way, as "NDC" mirrors, so that calculatenormal(ScatterPref) is the mesh's own. Faces at a
-/// border are pieces if the mesh has the tag "interpolateboundary"; faces without extent are none. The error
-/// says what is wrong with the mesh.
+/// is flat, x and y in [0, 1], y down, z 1/2; "vertex point ScatterPref" is where the mesh has its points,
+/// "constant float ScatterFace" the number of the face; all other variables and tags are those of the mesh.
+/// All pieces have the same scale. The corners of faces turn the other way, as "NDC" mirrors, so that
+/// calculatenormal(ScatterPref) is the mesh's own. Faces at a border are pieces if the mesh has the tag
+/// "interpolateboundary"; faces without extent are none. The error says what is wrong with the mesh.
 slvm::Result<size_t> fragment_mesh(const RequestCall& mesh, const Declarations& declarations,
                                    const std::function<void(const RequestCall&)>& piece);
 

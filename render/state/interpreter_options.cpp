@@ -326,6 +326,8 @@ void Interpreter::limit(const std::string& name, const slvm::Value& value) {
     options_.threads = clamp(n[0], 0, 4096);
   } else if (name == "texturememory") {
     options_.texture_megabytes = std::clamp(n[0] / 1024, 1.0f, 1e6f);
+  } else if (name == "octreememory") {
+    options_.octree_megabytes = std::clamp(n[0] / 1024, 1.0f, 1e6f);
   }
 }
 

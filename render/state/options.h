@@ -127,6 +127,7 @@ struct Options {
   int eye_splits = 10;
   int threads = 0; ///< 0: not said
   float texture_megabytes = 1024;
+  float octree_megabytes = 256;    ///< of lit clouds of points
   Color opacity_threshold{0.996f}; ///< opacity at which a sample counts as closed
   Color depth_threshold{1.0f};     ///< opacity at which a surface shows in z images
 

@@ -7,9 +7,11 @@
 surface
 bakescatter(varying point ScatterPref = point (0, 0, 0);          /* where the surface is, in its own space */
             uniform string ScatterActualObject = "actualobject";  /* the name of that space */
+            uniform float ScatterFace = 0;                        /* the number of the face in its mesh */
             output varying point ScatterP = point (0, 0, 0);
             output varying normal ScatterN = normal (0, 0, 0);
             output varying float ScatterA = 0;
+            output varying float ScatterF = 0;                    /* that number, for maps by faces */
             )
 {
   /* The renderer took the points to be in the space of the flat mesh. */
@@ -20,5 +22,6 @@ bakescatter(varying point ScatterPref = point (0, 0, 0);          /* where the s
   point pixels = transform("raster", P);
   setzcomp(pixels, 0);
   ScatterA = area(ScatterP) / area(pixels);
+  ScatterF = ScatterFace;
   Ci = Oi = 1;
 }

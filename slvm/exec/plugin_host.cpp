@@ -53,6 +53,7 @@ RixInterface* PluginContext::GetRixInterface(RixInterfaceId id) const {
   case k_RixStats: return &host_.statistics();
   case k_RixThreadUtils: return &host_.thread_utils();
   case k_RixGlobalTokenData: return &host_.tokens();
+  case k_RixRunData: return &host_.run_data();
   case k_RixGrid: grid_.call = call; return call ? &grid_ : nullptr;
   default: return nullptr;
   }
@@ -95,10 +96,11 @@ void PluginContext::tell(PluginMessage message) const {
 
 PluginHost::PluginHost(const Machine& machine, std::vector<std::string> folders)
     : machine_(machine), folders_(std::move(folders)), tokens_(machine.strings()), context_(*this, nullptr),
-      globals_(context_) {}
+      globals_(context_), run_data_(context_) {}
 
 PluginHost::~PluginHost() {
   end_frame();
+  run_data_.clear(); // while libraries are open, whose functions clean up
 }
 
 void PluginHost::enter(const HostedLibrary& library, PluginContext* context) {

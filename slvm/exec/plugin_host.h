@@ -101,6 +101,7 @@ public:
 
   PluginContext& context() { return context_; }
   PluginStorage& globals() { return globals_; }
+  PluginStorage& run_data() { return run_data_; }
   PluginTokens& tokens() { return tokens_; }
   PluginStatistics& statistics() { return statistics_; }
   PluginThreadUtils& thread_utils() { return thread_utils_; }
@@ -116,7 +117,7 @@ private:
   PluginStatistics statistics_;
   PluginThreadUtils thread_utils_;
   PluginContext context_;
-  PluginStorage globals_;
+  PluginStorage globals_, run_data_; // of the frame, and of the host's life
   std::mutex mutex_;
   std::map<std::string, std::unique_ptr<HostedLibrary>> libraries_; // by path
   std::deque<HostedFunction> functions_;

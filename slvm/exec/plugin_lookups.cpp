@@ -1,4 +1,4 @@
-// Lookups in maps that plug-ins ask for during a call: one region at a time, any number of channels.
+// Lookups in maps that plug-ins ask for during a call: any number of regions and of channels.
 #include "slvm/exec/lookup_region.h"
 #include "slvm/exec/plugin_call.h"
 #include "slvm/exec/run.h"
@@ -10,23 +10,24 @@
 namespace slvm {
 namespace {
 
-constexpr int kMostChannels = 1024;
+constexpr int kMostChannels = 1024, kMostPoints = 1 << 24;
 
-/// The lookup with its region and optional arguments, but for channels and result.
-TextureLookup make_lookup(const GridCall& call, const AnemoneLookup& asked, MapKind kind,
-                          const uint64_t* mask) {
+/// The lookup with its regions and optional arguments, but for channels, mask and result.
+TextureLookup make_lookup(const GridCall& call, const AnemoneLookup& asked, MapKind kind) {
   const size_t dimensions = kind == MapKind::kTexture ? 2 : 3;
   TextureLookup lookup;
   lookup.map = asked.map;
-  lookup.points = 1;
-  lookup.mask = mask;
-  float corners[4][3] = {};
-  for (size_t c = 0; c < dimensions; ++c) {
-    lookup.centre[c] = lookup.along_u[c] = lookup.along_v[c] = {0};
-    for (size_t k = 0; k < 4; ++k)
-      corners[k][c] = asked.corners[k][c];
+  lookup.points = static_cast<size_t>(asked.points);
+  for (size_t c = 0; c < dimensions; ++c)
+    for (auto* values : {&lookup.centre[c], &lookup.along_u[c], &lookup.along_v[c]})
+      values->assign(lookup.points, 0.0f);
+  for (size_t i = 0; i < lookup.points; ++i) {
+    float corners[4][3] = {};
+    for (size_t c = 0; c < dimensions; ++c)
+      for (size_t k = 0; k < 4; ++k)
+        corners[k][c] = asked.corner[k][c][i * static_cast<size_t>(asked.stride)];
+    set_region(lookup, i, dimensions, corners);
   }
-  set_region(lookup, 0, dimensions, corners);
   LookupWidths widths;
   for (int i = 0; i < asked.tokens; ++i) {
     // Types may stand before the name, as in calls of Ri functions.
@@ -51,25 +52,33 @@ TextureLookup make_lookup(const GridCall& call, const AnemoneLookup& asked, MapK
 int plugin_lookup(void* context, const AnemoneLookup* asked) {
   const GridCall* call = call_of(context);
   if (!call || !asked->map || !asked->result || asked->kind < 0 || asked->kind > 2 ||
-      asked->first_channel < 0 || asked->channels < 1 || asked->channels > kMostChannels)
+      asked->first_channel < 0 || asked->channels < 1 || asked->channels > kMostChannels ||
+      asked->points < 0 || asked->points > kMostPoints)
     return -1;
-  std::fill_n(asked->result, asked->channels, 0.0f);
+  const auto channels = static_cast<size_t>(asked->channels), points = static_cast<size_t>(asked->points);
+  std::fill_n(asked->result, channels * points, 0.0f);
   if (!*asked->map) return -1;
   const auto kind = static_cast<MapKind>(asked->kind);
-  const uint64_t one_point = 1;
-  TextureLookup lookup = make_lookup(*call, *asked, kind, &one_point);
-  for (int done = 0; done < asked->channels;) {
-    lookup.channels = asked->channels - done >= 3 ? 3 : 1;
-    lookup.first_channel = static_cast<uint32_t>(asked->first_channel + done);
-    for (uint32_t c = 0; c < lookup.channels; ++c)
-      lookup.result[c] = asked->result + done + c;
+  TextureLookup lookup = make_lookup(*call, *asked, kind);
+  const std::vector<uint64_t> all(points / 64 + 1, ~uint64_t{0});
+  lookup.mask = all.data();
+  std::vector<float> planes[TextureLookup::kMost];
+  for (size_t c = 0; c < TextureLookup::kMost; ++c) {
+    planes[c].resize(points);
+    lookup.result[c] = planes[c].data();
+  }
+  for (size_t done = 0; done < channels; done += lookup.channels) {
+    lookup.channels = channels - done >= 3 ? 3 : 1;
+    lookup.first_channel = static_cast<uint32_t>(static_cast<size_t>(asked->first_channel) + done);
     const std::string problem = look_up(call->run.state.services.textures(), kind, lookup);
     if (!problem.empty()) {
       call->run.report(call->code, MessageSeverity::kWarning,
                        fmt::format("{} of a plug-in, \"{}\": {}", asked->function, asked->map, problem), 1);
       return -1;
     }
-    done += static_cast<int>(lookup.channels);
+    for (size_t c = 0; c < lookup.channels; ++c)
+      for (size_t i = 0; i < points; ++i)
+        asked->result[i * channels + done + c] = planes[c][i];
   }
   return 0;
 }

@@ -1,4 +1,5 @@
 // What sdk/rx.h offers plug-ins: noise by the machine's kernels, spaces and queries by the call under way.
+#include "slvm/exec/observer.h"
 #include "slvm/exec/plugin_call.h"
 #include "slvm/exec/run.h"
 #include "slvm/exec/spaces.h"
@@ -85,6 +86,16 @@ int query(void* context, int kind, const char* name, void* result, int length, R
   return give_value(*call, value, result, length, type, count);
 }
 
+int place(void* context, int* line, const char** file) {
+  const GridCall* call = call_of(context);
+  if (!call || !line || !file) return -1;
+  const SourcePlace where = place_of(call->run.program, call->code);
+  StringPool& strings = call->run.state.machine.strings();
+  *line = static_cast<int>(where.line);
+  *file = strings.text(strings.intern(where.line ? where.file : call->run.program.source_name)).data();
+  return 0;
+}
+
 void* context_of_call(void* context) {
   return context ? static_cast<RixContext*>(static_cast<PluginContext*>(context)) : nullptr;
 }
@@ -115,7 +126,8 @@ int give_value(const GridCall& call, const Value& value, void* result, int lengt
 
 const AnemonePluginServices& plugin_services() {
   static constexpr AnemonePluginServices kServices{
-      ANEMONE_PLUGIN_SERVICES, noise, matrix, query, context_of_call, plugin_lookup, plugin_texture_info};
+      ANEMONE_PLUGIN_SERVICES, noise, matrix, query, context_of_call, plugin_lookup,
+      plugin_texture_info,     place};
   return kServices;
 }
 

@@ -26,6 +26,9 @@ ANEMONE_CALL(diffusion_of_appearance);
 ANEMONE_CALL(diffusion_of_points);
 ANEMONE_CALL(diffusion_of_levels);
 
+// surface_cells.cpp: the points nearest to a place (the course's 5.5).
+ANEMONE_CALL(surface_cells);
+
 // scatter_calls.cpp: scatter maps (the course's chapter 5).
 ANEMONE_CALL(read_map);
 ANEMONE_CALL(add_grid_point);

@@ -2,67 +2,58 @@
 // (Jensen and Buhler 2002; the course's 4.4).
 #include "stdlib/dso/calls.h"
 #include "stdlib/dso/plugin_data.h"
-#include "stdlib/subsurface/diffusion_tree.h"
+#include "stdlib/subsurface/lit_cloud.h"
 
 #include <fmt/format.h>
-#include <map>
-#include <memory>
 #include <mutex>
+#include <optional>
 
 namespace subsurface_plugin {
 namespace {
 
 using namespace subsurface;
 
-/// A lit cloud, ready for lookups.
-class Cloud {
-public:
-  explicit Cloud(DiffusionTree tree) : tree_(std::move(tree)) {}
-  const DiffusionTree& tree() const { return tree_; }
-
-  /// By the colours of the points.
-  const DiffusionMaterial& material(Color free_path, float eta) {
-    std::lock_guard lock(mutex_);
-    auto& made = materials_[{free_path.x, free_path.y, free_path.z, eta}];
-    if (!made) made = std::make_unique<DiffusionMaterial>(tree_, free_path, static_cast<double>(eta));
-    return *made;
-  }
-
-private:
-  DiffusionTree tree_;
-  std::mutex mutex_;
-  std::map<std::array<float, 4>, std::unique_ptr<DiffusionMaterial>> materials_;
-};
-
-/// Those of a frame, each read once.
-struct FrameClouds {
+/// The clouds of the run.
+struct RunClouds {
   static constexpr const char* kName = "anemone.subsurface.clouds";
   void end(RixContext&) {}
-
-  slvm::Result<std::shared_ptr<Cloud>> get(const std::string& file) {
-    std::lock_guard lock(mutex);
-    if (auto found = clouds.find(file); found != clouds.end()) return found->second;
-    return clouds.emplace(file, read(file)).first->second;
-  }
-
-  static slvm::Result<std::shared_ptr<Cloud>> read(const std::string& file) {
-    auto points = read_point_cloud(file);
-    if (!points) return slvm::Error{points.error()};
-    auto tree = DiffusionTree::build(*points);
-    if (!tree) return slvm::Error{fmt::format("{}: {}", file, tree.error())};
-    return std::make_shared<Cloud>(std::move(*tree));
-  }
-
-  std::mutex mutex;
-  std::map<std::string, slvm::Result<std::shared_ptr<Cloud>>> clouds;
+  CloudCache cache;
 };
 
+/// Those of a frame, and what its options say about them.
+struct CloudsOfFrame {
+  static constexpr const char* kName = "anemone.subsurface.frame_clouds";
+  void end(RixContext&) {}
+  std::once_flag begun;
+  std::optional<FrameClouds> clouds;
+};
+
+CloudCache::Settings settings_of_scene() {
+  CloudCache::Settings settings;
+  settings.most_bytes = octree_memory(settings.most_bytes);
+  RxInfoType_t type;
+  int count = 0;
+  char* folder = nullptr;
+  if (RxOption("subsurface:treefolder", &folder, sizeof folder, &type, &count) == 0 && folder)
+    settings.folder = folder;
+  return settings;
+}
+
 /// Null, with a message: it cannot be used.
-std::shared_ptr<Cloud> cloud_of(const RslContext& context, const char* file) {
-  auto cloud = of_frame<FrameClouds>(context).get(file);
-  if (cloud) return *cloud;
-  complain(context, cloud.error());
-  return nullptr;
+std::shared_ptr<LitCloud> cloud_of(const RslContext& context, const char* file) {
+  auto& frame = of_frame<CloudsOfFrame>(context);
+  std::call_once(frame.begun, [&] {
+    CloudCache& cache = of_run<RunClouds>(context).cache;
+    cache.configure(settings_of_scene());
+    frame.clouds.emplace(cache);
+  });
+  auto found = frame.clouds->get(file);
+  if (!found) {
+    complain(context, found.error());
+    return nullptr;
+  }
+  if (!found->warning.empty()) complain(context, found->warning);
+  return found->cloud;
 }
 
 /// Calls `lookup` for all points at once and stores what it finds. Lookups have Fdt in them, the light that
@@ -141,9 +132,9 @@ int diffusion_of_points(RslContext* context, int, const RslArg* argv[]) {
   if (!positive(*context, "freepath", path) || !positive(*context, "eta", *eta)) return nothing(argv[0]);
   const auto cloud = cloud_of(*context, *file);
   if (!cloud) return nothing(argv[0]);
-  const DiffusionMaterial& dipoles = cloud->material(path, *eta);
+  const auto dipoles = cloud->material(path, *eta);
   return look_up(argv[0], argv[1], *eta, [&](auto& x, auto& light) {
-    cloud->tree().exitance(dipoles, x, {*epsilon, {}}, light);
+    cloud->tree().exitance(*dipoles, x, {*epsilon, {}}, light);
   });
 }
 
@@ -157,7 +148,7 @@ int diffusion_of_levels(RslContext* context, int, const RslArg* argv[]) {
   const Color path = vec3(*free_path);
   if (!positive(*context, "freepath", path) || !positive(*context, "eta", *eta)) return nothing(argv[0]);
   const DiffusionMaterial dipoles(dipole_of(medium_of(vec3(*albedo), path, 0, static_cast<double>(*eta))));
-  std::vector<std::shared_ptr<Cloud>> clouds;
+  std::vector<std::shared_ptr<LitCloud>> clouds;
   std::vector<CloudLevels::Level> levels;
   for (int i = 0; i < files.GetLength(); ++i) {
     const bool last = i + 1 == files.GetLength();

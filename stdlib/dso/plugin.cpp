@@ -35,6 +35,10 @@ const RslFunction kFunctions[] = {
      "color freepath, uniform float eta, uniform float epsilon)",
      diffusion_of_levels, NULL, NULL, NULL, NULL},
 
+    {"void surfacecells(uniform string cloud, point P, output float nearest, output float second, output "
+     "point centre)",
+     surface_cells, NULL, NULL, NULL, NULL},
+
     {"void ScatterDSOReadMap(uniform string map)", read_map, NULL, NULL, NULL, NULL},
     {"varying float ScatterDSOAddGridPoint(point P, float width)", add_grid_point, NULL, NULL, NULL, NULL},
     {"varying float ScatterDSOGetSample(output point P, output normal N, output float area)", get_sample,

@@ -1,8 +1,9 @@
-// What the functions of the plug-in keep between calls: for a frame, shared by all threads, or for the grid
-// that is being shaded. And their messages, which get the line of the shader.
+// What the functions of the plug-in keep between calls: for the run or a frame, shared by all threads, or for
+// the grid that is being shaded. And their messages, which get the line of the shader.
 #pragma once
 
 #include "RslPlugin.h"
+#include "rx.h"
 #include "stdlib/subsurface/vec3.h"
 
 #include <string>
@@ -30,11 +31,24 @@ template <class T> T& kept(RixStorage& storage) {
   });
   return *made;
 }
+/// What outlives frames.
+template <class T> T& of_run(const RslContext& context) {
+  return kept<T>(*static_cast<RixStorage*>(context.GetRixInterface(k_RixRunData)));
+}
 template <class T> T& of_frame(const RslContext& context) {
   return kept<T>(*context.GetGlobalStorage());
 }
 template <class T> T& of_grid(const RslContext& context) {
   return kept<T>(*context.GetLocalStorage());
+}
+
+/// Bytes that Option "limits" "octreememory" of the scene leaves, inside a call.
+inline size_t octree_memory(size_t otherwise) {
+  RxInfoType_t type;
+  int count = 0;
+  float kilobytes = 0;
+  const bool given = RxOption("limits:octreememory", &kilobytes, sizeof kilobytes, &type, &count) == 0;
+  return given && kilobytes > 0 ? static_cast<size_t>(kilobytes) * 1024 : otherwise;
 }
 
 inline subsurface::Vec3 vec3(const float* three) {

@@ -6,15 +6,38 @@
 #include "stdlib/dso/scatter_images.h"
 #include "stdlib/subsurface/scatter_cache.h"
 
+#include <mutex>
+
 namespace subsurface_plugin {
 namespace {
 
-/// Of a frame: the maps, and what light their samples have got.
-struct FrameMaps {
+/// Of the run: the maps, and what light their samples have got.
+struct RunMaps {
   static constexpr const char* kName = "anemone.subsurface.maps";
   void end(RixContext&) {}
-  subsurface::ScatterMaps maps{read_scatter_map};
+  subsurface::ScatterMaps maps{read_scatter_map, stamps_of_scatter_map};
 };
+
+/// A frame begins without light, and with the files as they are; its options say how much memory there is.
+struct FrameMaps {
+  static constexpr const char* kName = "anemone.subsurface.frame_maps";
+  void end(RixContext& context) {
+    if (const std::string problem = maps ? maps->pool().problem() : ""; !problem.empty())
+      complain(context, problem);
+  }
+  std::once_flag begun;
+  subsurface::ScatterMaps* maps = nullptr;
+};
+
+subsurface::ScatterMaps& maps_of_frame(const RslContext& context) {
+  auto& frame = of_frame<FrameMaps>(context);
+  std::call_once(frame.begun, [&] {
+    frame.maps = &of_run<RunMaps>(context).maps;
+    frame.maps->forget_light();
+    frame.maps->pool().set_limit(octree_memory(subsurface::ScatterMaps::kUsualBytes));
+  });
+  return *frame.maps;
+}
 
 /// Of a grid. Made by the first ScatterDSOReadMap().
 struct GridScatter {
@@ -35,7 +58,7 @@ subsurface::ScatterGrid* begun(const RslContext& context, const char* function) 
 int read_map(RslContext* context, int, const RslArg* argv[]) {
   RslStringIter name(argv[1]);
   auto& grid = of_grid<GridScatter>(*context).grid;
-  if (!grid) grid = std::make_unique<subsurface::ScatterGrid>(of_frame<FrameMaps>(*context).maps);
+  if (!grid) grid = std::make_unique<subsurface::ScatterGrid>(maps_of_frame(*context));
   if (auto read = grid->read_map(*name); !read) complain(*context, read.error());
   return 0;
 }

@@ -76,26 +76,48 @@ slvm::Result<Image> read_image(const std::string& path, size_t channels) {
   return image;
 }
 
+/// The file of one kind of values, P, N, A or F.
+std::string path_of(const std::string& name, char kind) {
+  const size_t dot = name.find('.', name.rfind('/') == name.npos ? 0 : name.rfind('/'));
+  return name.substr(0, dot) + kind + (dot == name.npos ? "" : name.substr(dot));
+}
+
+constexpr char kKinds[] = {'P', 'N', 'A', 'F'};
+
 } // namespace
 
 slvm::Result<subsurface::PointCloud> read_scatter_map(const std::string& name) {
   if (name.ends_with(".ply")) return subsurface::read_point_cloud(name);
-  const size_t dot = name.find('.', name.rfind('/') == name.npos ? 0 : name.rfind('/'));
-  const std::string stem = name.substr(0, dot), ending = dot == name.npos ? "" : name.substr(dot);
-  Image images[3];
-  constexpr size_t kChannels[] = {3, 3, 1};
-  for (size_t i = 0; i < 3; ++i) {
-    const std::string path = stem + "PNA"[i] + ending;
+  Image images[4];
+  constexpr size_t kChannels[] = {3, 3, 1, 1};
+  const bool has_faces = static_cast<bool>(subsurface::stamp_of(path_of(name, 'F')));
+  for (size_t i = 0; i < (has_faces ? 4 : 3); ++i) {
+    const std::string path = path_of(name, kKinds[i]);
     auto image = read_image(path, kChannels[i]);
     if (!image) return slvm::Error{image.error()};
     images[i] = std::move(*image);
     if (images[i].width != images[0].width || images[i].height != images[0].height)
-      return slvm::Error{
-          fmt::format("{} has {} x {} pixels, {}P{} {} x {}: they must come from one rendering", path,
-                      images[i].width, images[i].height, stem, ending, images[0].width, images[0].height)};
+      return slvm::Error{fmt::format("{} has {} x {} pixels, {} {} x {}: they must come from one rendering",
+                                     path, images[i].width, images[i].height, path_of(name, 'P'),
+                                     images[0].width, images[0].height)};
   }
   return subsurface::cloud_of_scatter_images(images[0].width, images[0].height, images[0].first(3),
-                                             images[1].first(3), images[2].first(1));
+                                             images[1].first(3), images[2].first(1),
+                                             has_faces ? images[3].first(1) : std::vector<float>());
+}
+
+std::vector<subsurface::FileStamp> stamps_of_scatter_map(const std::string& name) {
+  std::vector<subsurface::FileStamp> stamps;
+  auto add = [&](const std::string& path) {
+    const auto stamp = subsurface::stamp_of(path);
+    stamps.push_back(stamp ? *stamp : subsurface::FileStamp());
+  };
+  if (name.ends_with(".ply"))
+    add(name);
+  else
+    for (char kind : kKinds)
+      add(path_of(name, kind));
+  return stamps;
 }
 
 } // namespace subsurface_plugin

@@ -91,38 +91,57 @@ color lightat(point Pi; normal Ni) {
   return sum;
 }
 
+/* How many free paths from P places of diffusion may be. Of what comes from a plane the rest is below one percent. */
+#define SUBSURFACE_PROBE 4
+
+/* How densely rays along one axis find a place: those of diffusionplace(), spread on the plane across the axis, on a surface that is turned
+ * from that plane. offset: from P to the place.
+ */
+float densityalong(vector axis; vector offset; normal Nu; float reach) {
+  float r = length(offset - (offset . axis) * axis) / reach;
+  return exp(-r) * abs(Nu . axis) / (2 * PI * reach * reach);
+}
+
 /* Diffusion of all lights: rays find places of the surface round P, where the light is that of their own, then the dipole brings it to P.
- * The samples spread by the longest free path of the three colours, or colours would separate into grain. Places are found on both sides
- * of the tangent plane, the one nearest to the outside first. `map`: "", or a texture that is the albedo at each place (times
- * `albedo`), looked up at its primitive's s and t.
+ * The samples spread by the longest free path of the three colours, or colours would separate into grain. Three quarters of the rays go
+ * along the normal, the others along two axes across it, so that edges and sides that the normal's rays hardly meet are found as well;
+ * each place counts by how densely all of them together find it (King, Kulla, Conty, Fajardo, "BSSRDF Importance Sampling", 2013).
+ * `map`: "", or a texture that is the albedo at each place (times `albedo`), looked up at its primitive's s and t.
  */
 color diffusionscattering(point P; normal Nn; color albedo; color freepath; float eta; uniform float samples; uniform string subset;
                           uniform string map) {
   float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
   vector base1 = axisacross(vector Nn), base2 = base1 ^ Nn;
   float turn = 2 * PI * random();
-  uniform float i;
+  uniform float across = samples < 3 ? 0 : max(1, floor(samples / 8)), i;
+  uniform float along = samples - 2 * across;
   color sum = 0;
   for (i = 0; i < samples; i += 1) {
+    uniform float way = i < along ? 0 : i < along + across ? 1 : 2;
+    uniform float first = way == 0 ? 0 : way == 1 ? along : along + across;
+    vector axis = way == 0 ? vector Nn : way == 1 ? base1 : base2;
     float r = 0;
-    vector aside = reach * diffusionplace(i, samples, turn, base1, base2, r);
-    float probe = (r + 0.25) * reach;
+    vector aside = reach * diffusionplace(i - first, way == 0 ? along : across, turn, way == 0 ? base1 : vector Nn,
+                                          way == 2 ? base1 : base2, r);
+    float probe = SUBSURFACE_PROBE * reach;
     point Pi = 0;
     normal Ni = 0;
     float si = 0, ti = 0;
     color added = 0;
-    gather("", P + aside + probe * Nn, -Nn, 0, 1, "primitive:P", Pi, "primitive:N", Ni, "primitive:s", si, "primitive:t", ti, "bias", 0,
-           "maxdist", 2 * probe, "subset", subset) {
+    traverse("", P + aside + probe * axis, -axis, "primitive:P", Pi, "primitive:N", Ni, "primitive:s", si, "primitive:t", ti, "bias", 0,
+             "maxdist", 2 * probe, "subset", subset) {
       normal Nu = normalize(Ni);
+      vector offset = Pi - P;
       color there = albedo;
       if (map != "") there *= color texture(map, si, ti, si, ti, si, ti, si, ti, "samples", 1);
-      /* The piece of surface behind a piece of tangent plane is larger; how much larger is kept within bounds. */
-      float slant = max(abs(Nu . Nn), 0.1);
-      added = lightat(Pi, Nu) * dipoleof(distance(P, Pi), there, freepath, eta) * (2 * PI * reach * reach * exp(r) / slant);
+      float density = along * densityalong(vector Nn, offset, Nu, reach) + across * densityalong(base1, offset, Nu, reach) +
+                      across * densityalong(base2, offset, Nu, reach);
+      /* In a ball, all of which rays along any axis reach: beyond it some would, and what they find would weigh far too much. */
+      if (length(offset) < probe && density > 0) added += lightat(Pi, Nu) * dipoleof(length(offset), there, freepath, eta) / density;
     }
     sum += added;
   }
-  return sum / samples;
+  return sum;
 }
 
 /* The nearest place towards a light, by its shadow map: where light to p enters. False (0): the map shows nothing there. The light's camera
@@ -167,6 +186,16 @@ float pastblockers(uniform string inner; point p; float soft) {
     if (entrybymap(inner, p, at) == 1)
       through = 1 - smoothstep(0, soft, zcomp(transform(toEye, p)) - zcomp(transform(toEye, at)));
   }
+  return through;
+}
+
+/* The part of a light that other things leave to P, by a shadow map of them alone ("": nothing is in the way): the maps of the functions below
+ * hold the translucent object, whose places are where its depths are, and cannot show what casts shadows on it. For a loop over lights:
+ * `sum += Cl * pastothers(outer, P) * diffusionscatteringbymap(...)`.
+ */
+float pastothers(uniform string outer; point P) {
+  float through = 1;
+  if (outer != "") through = 1 - float shadow(outer, P);
   return through;
 }
 

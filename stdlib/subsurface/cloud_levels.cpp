@@ -34,7 +34,7 @@ PointCloud DiffusionTree::coarser(float size) const {
       stack.push_children(*node);
     else
       for (uint32_t i = node->begin; i < node->end; ++i)
-        add(i, i + 1, {octree_.positions()[i], area_[i], flux_[i], false});
+        add(i, i + 1, {octree_.positions()[i], area_[i], flux_[i], false, {}});
   }
   return cloud;
 }
@@ -46,7 +46,9 @@ void CloudLevels::exitance(std::span<const Vec3> x, float epsilon, float fade, s
   std::fill(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(x.size()), Color{});
   float inner = 0;
   for (size_t l = 0; l < levels_.size(); ++l) {
-    LookupOptions options{epsilon, {inner, std::numeric_limits<float>::infinity(), fade}};
+    LookupOptions options;
+    options.epsilon = epsilon;
+    options.shell = {inner, std::numeric_limits<float>::infinity(), fade};
     if (l + 1 < levels_.size()) options.shell.outer = levels_[l].radius;
     levels_[l].tree->exitance(*levels_[l].material, x, options, part, count);
     for (size_t i = 0; i < x.size(); ++i)

@@ -16,6 +16,12 @@ float smooth(float low, float high, float x) {
   return y * y * (3 - 2 * y);
 }
 
+/// Of a group that could stand for its members: which part it takes where lookups are smooth. `share`: the
+/// solid angle of its area over the greatest one.
+float part_of_group(float share) {
+  return 1 - smooth(0.5f, 1, share);
+}
+
 /// Mean over the colours of light that is not negative, the weight of a place.
 float weight_of(Color flux) {
   return std::abs(flux.x) + std::abs(flux.y) + std::abs(flux.z);
@@ -46,8 +52,18 @@ DiffusionMaterial::Sources DiffusionMaterial::sources_of(const DipoleRgb& dipole
   return s;
 }
 
+namespace {
+
+/// 1/sigma_tr of the colour that gets farthest; without absorption it is without end.
+float reach_of(const float (&transport)[3]) {
+  const float least = std::min({transport[0], transport[1], transport[2]});
+  return least > 0 ? 1 / least : std::numeric_limits<float>::infinity();
+}
+
+} // namespace
+
 DiffusionMaterial::DiffusionMaterial(const DipoleRgb& dipoles)
-    : samples_{sources_of(dipoles)}, uniform_(true) {}
+    : samples_{sources_of(dipoles)}, uniform_(true), reach_(reach_of(samples_[0].transport)) {}
 
 DiffusionMaterial::DiffusionMaterial(const DiffusionTree& tree, Color mean_free_path, double eta,
                                      DiffuseFresnel how)
@@ -72,6 +88,7 @@ DiffusionMaterial::DiffusionMaterial(const DiffusionTree& tree, Color mean_free_
       sum[c] = tree.albedo_.empty() ? 0.5f : weights[c] > 0 ? sum[c] / weights[c] : plain[c];
     groups_.push_back(sources(sum));
   }
+  reach_ = std::max({mean_free_path.x, mean_free_path.y, mean_free_path.z});
 }
 
 slvm::Result<DiffusionTree> DiffusionTree::build(const PointCloud& cloud) {
@@ -95,6 +112,11 @@ slvm::Result<DiffusionTree> DiffusionTree::build(const PointCloud& cloud) {
   return tree;
 }
 
+size_t DiffusionTree::bytes() const {
+  return octree_.bytes() + groups_.size() * sizeof(Group) + area_.size() * (sizeof(float) + sizeof(Color)) +
+         (normal_.size() + albedo_.size()) * sizeof(Vec3);
+}
+
 void DiffusionTree::set_irradiance(std::span<const Color> irradiance) {
   assert(irradiance.size() == area_.size());
   const auto order = octree_.order();
@@ -109,13 +131,15 @@ void DiffusionTree::sum_groups() {
   const auto nodes = octree_.nodes();
   groups_.assign(nodes.size(), {});
   struct Moments {
-    double light[4] = {}, place[4] = {}; // weight, then weighted position
+    double light[7] = {}, place[7] = {}; // weight, then weighted position and normal
   };
   std::vector<Moments> moments(nodes.size());
-  auto add = [](double* to, Vec3 p, double weight) {
+  auto add = [&](double* to, uint32_t i, double weight) {
     to[0] += weight;
-    for (int c = 0; c < 3; ++c)
-      to[c + 1] += weight * static_cast<double>(p[c]);
+    for (int c = 0; c < 3; ++c) {
+      to[c + 1] += weight * static_cast<double>(octree_.positions()[i][c]);
+      if (!normal_.empty()) to[c + 4] += weight * static_cast<double>(normal_[i][c]);
+    }
   };
   for (size_t n = nodes.size(); n-- > 0;) {
     Group& group = groups_[n];
@@ -124,20 +148,22 @@ void DiffusionTree::sum_groups() {
       group.area += area_[i];
       group.flux += flux_[i];
       group.dark = group.dark && weight_of(flux_[i]) == 0;
-      add(moments[n].light, octree_.positions()[i], static_cast<double>(weight_of(flux_[i])));
-      add(moments[n].place, octree_.positions()[i], static_cast<double>(area_[i]));
+      add(moments[n].light, i, static_cast<double>(weight_of(flux_[i])));
+      add(moments[n].place, i, static_cast<double>(area_[i]));
     }
     for (uint32_t c = node.first_child; c < node.first_child + node.children; ++c) {
       group.area += groups_[c].area;
       group.flux += groups_[c].flux;
       group.dark = group.dark && groups_[c].dark;
-      for (int k = 0; k < 4; ++k)
+      for (int k = 0; k < 7; ++k)
         moments[n].light[k] += moments[c].light[k], moments[n].place[k] += moments[c].place[k];
     }
     const double* m = moments[n].light[0] > 0 ? moments[n].light : moments[n].place;
     group.position = node.centre;
-    for (int c = 0; c < 3 && m[0] > 0; ++c)
+    for (int c = 0; c < 3 && m[0] > 0; ++c) {
       group.position[c] = static_cast<float>(m[c + 1] / m[0]);
+      group.normal[c] = static_cast<float>(m[c + 4] / m[0]);
+    }
   }
 }
 
@@ -146,7 +172,8 @@ class DiffusionTree::Gather {
 public:
   Gather(const DiffusionTree& tree, const DiffusionMaterial& material, const LookupOptions& options)
       : tree_(tree), material_(material), options_(options),
-        everywhere_(options.shell.inner <= 0 && !std::isfinite(options.shell.outer)) {
+        everywhere_(options.shell.inner <= 0 && !std::isfinite(options.shell.outer)),
+        follows_(options.follow_topology > 0 && tree.has_normals() && !options.normals.empty()) {
     const Shell& s = options.shell;
     begin_ = s.inner > 0 ? s.inner * (1 - s.fade) : 0;
     full_begin_ = s.inner > 0 ? s.inner * (1 + s.fade) : 0;
@@ -155,31 +182,60 @@ public:
     std::fill(std::begin(distance2_), std::end(distance2_), 1.0f); // no lane divides by 0
   }
 
-  Color run(Vec3 x, LookupCount* count) {
-    PointOctree::Stack stack(tree_.octree_);
+  /// Place `at` of the lookup's.
+  Color run(Vec3 x, size_t at, LookupCount* count) {
+    if (follows_) normal_ = options_.normals[at];
     for (auto& lanes : sum_)
       std::fill(std::begin(lanes), std::end(lanes), 0.0f);
     count_ = {};
     const auto nodes = tree_.octree_.nodes();
-    while (const PointOctree::Node* node = stack.pop()) {
-      const Group& group = tree_.groups_[static_cast<size_t>(node - nodes.data())];
-      if (group.dark || !reaches(*node, x)) continue;
-      const float d2 = length2(x - group.position);
-      if (group.area <= options_.epsilon * d2 && !node->contains(x) && fully_inside(*node, x)) {
-        add(d2, group.flux,
-            material_.uniform_ ? nullptr : &material_.groups_[static_cast<size_t>(node - nodes.data())]);
-        ++count_.groups;
-      } else if (node->children) {
-        stack.push_children(*node);
-      } else {
-        add_samples(*node, x);
+    todo_.clear();
+    if (!nodes.empty()) todo_.push_back({0, 1});
+    while (!todo_.empty()) {
+      const Open open = todo_.back();
+      todo_.pop_back();
+      const PointOctree::Node& node = nodes[open.node];
+      const Group& group = tree_.groups_[open.node];
+      if (group.dark || !reaches(node, x)) continue;
+      float rest = open.part;
+      const Vec3 from = x - group.position;
+      const float d2 = length2(from);
+      if (group.area <= options_.epsilon * d2 && !node.contains(x) && fully_inside(node, x)) {
+        const float part =
+            options_.smooth ? open.part * part_of_group(group.area / (options_.epsilon * d2)) : open.part;
+        if (part > 0) {
+          add(d2, group.flux * (part * passed(from, d2, group.normal)),
+              material_.uniform_ ? nullptr : &material_.groups_[open.node]);
+          ++count_.groups;
+        }
+        rest -= part;
+        if (rest <= 0) continue;
       }
+      if (node.children)
+        for (uint32_t i = node.children; i-- > 0;)
+          todo_.push_back({node.first_child + i, rest});
+      else
+        add_samples(node, x, rest);
     }
     if (count) count->groups += count_.groups, count->samples += count_.samples;
     return finish();
   }
 
 private:
+  /// A node still to be visited, and which part of its light is still to be counted.
+  struct Open {
+    uint32_t node;
+    float part;
+  };
+
+  /// What does not cross air, of the light of samples whose mean normal is `normal`; `from` them to x.
+  float passed(Vec3 from, float d2, Vec3 normal) const {
+    if (!follows_) return 1;
+    const float reach = std::max(std::sqrt(d2), material_.reach_);
+    const float facing = (1 - dot(normal_, normal)) * (1 - dot(normal_, from) / reach) / 2;
+    return 1 - options_.follow_topology * std::clamp(facing, 0.0f, 1.0f);
+  }
+
   bool reaches(const PointOctree::Node& node, Vec3 x) const {
     if (everywhere_) return true;
     return node.near_distance2(x) <= end_ * end_ && node.far_distance2(x) >= begin_ * begin_;
@@ -191,11 +247,13 @@ private:
            node.far_distance2(x) < full_end_ * full_end_;
   }
 
-  void add_samples(const PointOctree::Node& node, Vec3 x) {
+  void add_samples(const PointOctree::Node& node, Vec3 x, float part) {
     for (uint32_t i = node.begin; i < node.end; ++i) {
-      const float d2 = length2(x - tree_.octree_.positions()[i]);
-      const float weight = everywhere_ ? 1 : options_.shell.weight(std::sqrt(d2));
+      const Vec3 from = x - tree_.octree_.positions()[i];
+      const float d2 = length2(from);
+      float weight = everywhere_ ? part : part * options_.shell.weight(std::sqrt(d2));
       if (weight == 0) continue;
+      if (follows_) weight *= passed(from, d2, tree_.normal_[i]);
       add(d2, tree_.flux_[i] * weight, material_.uniform_ ? nullptr : &material_.samples_[i]);
       ++count_.samples;
     }
@@ -241,7 +299,9 @@ private:
   const DiffusionTree& tree_;
   const DiffusionMaterial& material_;
   const LookupOptions& options_;
-  bool everywhere_;
+  bool everywhere_, follows_;
+  Vec3 normal_; // at x
+  std::vector<Open> todo_;
   float begin_, full_begin_, full_end_, end_;
   size_t filled_ = 0;
   float distance2_[kBlock], flux_[3][kBlock] = {}, sum_[3][kBlock] = {};
@@ -252,13 +312,14 @@ private:
 void DiffusionTree::exitance(const DiffusionMaterial& material, std::span<const Vec3> x,
                              const LookupOptions& options, std::span<Color> out, LookupCount* count) const {
   assert(out.size() >= x.size());
+  assert(options.normals.empty() || options.normals.size() >= x.size());
   Gather gather(*this, material, options);
   for (size_t i = 0; i < x.size(); ++i)
-    out[i] = gather.run(x[i], count);
+    out[i] = gather.run(x[i], i, count);
 }
 
 Color DiffusionTree::exitance(const DiffusionMaterial& material, Vec3 x, const LookupOptions& options) const {
-  return Gather(*this, material, options).run(x, nullptr);
+  return Gather(*this, material, options).run(x, 0, nullptr);
 }
 
 } // namespace subsurface

@@ -29,6 +29,14 @@ struct LookupOptions {
   /// at most this (2002, eq 12). 0: the sum over all samples. docs/subsurface.md has the errors.
   float epsilon = 0.05f;
   Shell shell;
+  /// Where a group is about to stand for its members, both are taken, in shares that pass smoothly into each
+  /// other, so that no edge shows. Costs about half as much again.
+  bool smooth = false;
+  /// How far, from 0 to 1, light is kept from crossing air where the surface is concave (lips, folds): each
+  /// sample counts as much as bounce_attenuation() of scatter_map.h says. Needs the cloud's normals, and
+  /// `normals`.
+  float follow_topology = 0;
+  std::span<const Vec3> normals = {}; ///< unit, at each x
 };
 
 /// What lookups cost: how many groups and single samples they summed.
@@ -48,6 +56,8 @@ public:
   DiffusionMaterial(const DiffusionTree& tree, Color mean_free_path, double eta,
                     DiffuseFresnel how = DiffuseFresnel::kFit);
 
+  size_t bytes() const { return (samples_.size() + groups_.size()) * sizeof(Sources); }
+
 private:
   friend class DiffusionTree;
   /// One dipole each for red, green and blue, ready for use.
@@ -58,6 +68,7 @@ private:
 
   std::vector<Sources> samples_, groups_; // one each if it is one for all
   bool uniform_;
+  float reach_ = 0; // the diffuse mean free path of the colour that gets farthest
 };
 
 /// The tree of a cloud. Lookups may run in any number of threads, but not beside set_irradiance().
@@ -69,6 +80,7 @@ public:
     float area = 0;   ///< A [length^2]
     Color flux;       ///< sum of E times A [power]
     bool dark = true; ///< none of them has light
+    Vec3 normal;      ///< mean, weighted as the position is; shorter than 1 where they differ
   };
 
   DiffusionTree() = default;
@@ -90,6 +102,10 @@ public:
   const PointOctree& octree() const { return octree_; }
   std::span<const Group> groups() const { return groups_; }
   size_t size() const { return flux_.size(); }
+  bool has_normals() const { return !normal_.empty(); }
+  bool has_albedo() const { return !albedo_.empty(); }
+  /// Memory that it takes.
+  size_t bytes() const;
 
   /// A sparser cloud with the same area, flux and mean albedo: each group of the tree that is not larger
   /// across than `size` becomes a point, and so do samples that stand alone. Normals are averaged, channels
@@ -98,6 +114,7 @@ public:
 
 private:
   friend class DiffusionMaterial;
+  friend class TreeFile; // tree_file.h: on disk
   class Gather;
 
   void sum_groups();

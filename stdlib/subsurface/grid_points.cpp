@@ -5,6 +5,22 @@
 #include <cmath>
 
 namespace subsurface {
+namespace {
+
+/// From the mean of four corners, which lies below a surface that bulges, to the surface itself: half of how
+/// far the corners stand out, each along its own normal; exact to second order. Not more than a part of the
+/// cell, as shading normals may be anything.
+Vec3 bulge(Vec3 mean, const Vec3 (&corner)[4], const Vec3 (&normal)[4], Vec3 outward) {
+  constexpr float kMost = 0.2f;
+  float out = 0, size = 0;
+  for (int k = 0; k < 4; ++k) {
+    out += dot(corner[k] - mean, normalize(normal[k])) / 8;
+    size = std::max(size, length(corner[k] - mean));
+  }
+  return outward * std::clamp(out, -kMost * size, kMost * size);
+}
+
+} // namespace
 
 void append_grid(PointCloud& cloud, const GridView& grid) {
   assert(grid.position.size() >= grid.nu * grid.nv);
@@ -16,10 +32,14 @@ void append_grid(PointCloud& cloud, const GridView& grid) {
       const float area =
           0.5f * (length(cross(p[b] - p[a], p[d] - p[a])) + length(cross(p[d] - p[a], p[c] - p[a])));
       if (!(area > 0) || !std::isfinite(area)) continue;
-      cloud.position.push_back(mean(p));
+      const Vec3 outward =
+          normalize(grid.normal.empty() ? cross(p[d] - p[a], p[c] - p[b]) : mean(grid.normal));
+      Vec3 middle = mean(p);
+      if (const auto& n = grid.normal; !n.empty())
+        middle += bulge(middle, {p[a], p[b], p[c], p[d]}, {n[a], n[b], n[c], n[d]}, outward);
+      cloud.position.push_back(middle);
       cloud.area.push_back(area);
-      cloud.normal.push_back(
-          normalize(grid.normal.empty() ? cross(p[d] - p[a], p[c] - p[b]) : mean(grid.normal)));
+      cloud.normal.push_back(outward);
       if (!grid.irradiance.empty()) cloud.irradiance.push_back(mean(grid.irradiance));
       if (!grid.albedo.empty()) cloud.albedo.push_back(mean(grid.albedo));
     }

@@ -14,9 +14,11 @@ struct GridView {
   std::span<const Color> irradiance, albedo;
 };
 
-/// Adds a point for each micropolygon that has an area: at its middle, with the area of its two triangles and
-/// the mean of its corners' values. Without normals in the grid those of the micropolygon: of its diagonals,
-/// from the side from which u to v turns counterclockwise. A cloud must get the same columns from all grids.
+/// Adds a point for each micropolygon that has an area: at its middle, on the surface that the corners'
+/// normals tell of (below it shadows of the surface itself would reach the point), with the area of its two
+/// triangles and the mean of its corners' values. Without normals in the grid those of the micropolygon: of
+/// its diagonals, from the side from which u to v turns counterclockwise. A cloud must get the same columns
+/// from all grids.
 void append_grid(PointCloud& cloud, const GridView& grid);
 
 /// `count` points for the whole surface, all with about the same area: the cloud is halved again and again,

@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <numeric>
+#include <queue>
 
 namespace subsurface {
 
@@ -112,6 +113,74 @@ void PointOctree::split(Open open, uint32_t leaf_size, std::span<const Vec3> poi
     ++node.children;
   }
   nodes_[open.node] = node;
+}
+
+namespace {
+
+/// Whether children hold just what their parents do, each node is the child of one, and none is too deep.
+bool is_tree(std::span<const PointOctree::Node> nodes, size_t points, int most_depth) {
+  if (nodes.empty()) return points == 0;
+  if (nodes[0].begin != 0 || nodes[0].end != points) return false;
+  std::vector<int> depth(nodes.size(), -1);
+  depth[0] = 0;
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    const PointOctree::Node& node = nodes[n];
+    if (depth[n] < 0 || depth[n] > most_depth || node.begin >= node.end || node.children > 8) return false;
+    if (!node.children) continue;
+    if (node.first_child <= n || node.first_child + size_t{node.children} > nodes.size()) return false;
+    uint32_t at = node.begin;
+    for (size_t c = node.first_child; c < node.first_child + size_t{node.children}; ++c) {
+      if (depth[c] >= 0 || nodes[c].begin != at) return false;
+      depth[c] = depth[n] + 1;
+      at = nodes[c].end;
+    }
+    if (at != node.end) return false;
+  }
+  return true;
+}
+
+} // namespace
+
+slvm::Result<PointOctree> PointOctree::of_parts(std::vector<Node> nodes, std::vector<uint32_t> order,
+                                                std::vector<Vec3> positions) {
+  if (order.size() != positions.size()) return slvm::Error{"the tree has an order of other points"};
+  std::vector<bool> seen(order.size());
+  for (uint32_t i : order) {
+    if (i >= seen.size() || seen[i]) return slvm::Error{"the tree leaves points out"};
+    seen[i] = true;
+  }
+  if (!is_tree(nodes, order.size(), kMostDepth)) return slvm::Error{"its nodes are no tree"};
+  PointOctree tree;
+  tree.nodes_ = std::move(nodes);
+  tree.order_ = std::move(order);
+  tree.positions_ = std::move(positions);
+  return tree;
+}
+
+void PointOctree::nearest(Vec3 x, size_t count, std::vector<Near>& out) const {
+  out.clear();
+  if (nodes_.empty() || count == 0) return;
+  auto nearer = [](const Near& a, const Near& b) {
+    return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.place < b.place;
+  };
+  // Nodes by how near they begin; `out` is a heap with the farthest point on top.
+  auto begins_later = [](const Near& a, const Near& b) { return a.distance2 > b.distance2; };
+  std::priority_queue<Near, std::vector<Near>, decltype(begins_later)> todo(begins_later);
+  todo.push({0, nodes_[0].near_distance2(x)});
+  while (!todo.empty() && (out.size() < count || todo.top().distance2 <= out.front().distance2)) {
+    const Node& node = nodes_[todo.top().place];
+    todo.pop();
+    for (uint32_t c = node.first_child; c < node.first_child + node.children; ++c)
+      todo.push({c, nodes_[c].near_distance2(x)});
+    for (uint32_t i = node.begin; i < node.end && !node.children; ++i) {
+      out.push_back({i, length2(x - positions_[i])});
+      std::push_heap(out.begin(), out.end(), nearer);
+      if (out.size() <= count) continue;
+      std::pop_heap(out.begin(), out.end(), nearer);
+      out.pop_back();
+    }
+  }
+  std::sort_heap(out.begin(), out.end(), nearer);
 }
 
 } // namespace subsurface

@@ -2,6 +2,7 @@
 // others: diffusion_tree.h sums light over it, scatter_map.h finds the samples round a shading point.
 #pragma once
 
+#include "slvm/support/result.h"
 #include "stdlib/subsurface/vec3.h"
 
 #include <algorithm>
@@ -33,6 +34,9 @@ public:
   /// Leaves are split while they hold more than `leaf_size` points (8: Jensen and Buhler 2002, 3) that
   /// differ. At most 2^31 points, all finite. At most two nodes a point.
   explicit PointOctree(std::span<const Vec3> points, uint32_t leaf_size = 8);
+  /// From what nodes(), order() and positions() of another gave (a file). The error says what cannot be.
+  static slvm::Result<PointOctree> of_parts(std::vector<Node> nodes, std::vector<uint32_t> order,
+                                            std::vector<Vec3> positions);
 
   /// Node 0 is the root; children come after their parents. Empty without points.
   std::span<const Node> nodes() const { return nodes_; }
@@ -40,6 +44,10 @@ public:
   std::span<const uint32_t> order() const { return order_; }
   /// The points in that order.
   std::span<const Vec3> positions() const { return positions_; }
+  /// Memory that it takes.
+  size_t bytes() const {
+    return nodes_.size() * sizeof(Node) + order_.size() * sizeof(uint32_t) + positions_.size() * sizeof(Vec3);
+  }
 
   /// Calls f(place in order(), distance squared) for each point not farther from x than `radius`, always in
   /// the same order.
@@ -56,6 +64,15 @@ public:
         if (const float d2 = length2(x - positions_[i]); d2 <= most) f(i, d2);
     }
   }
+
+  /// A point and its distance squared.
+  struct Near {
+    uint32_t place = 0; ///< in order()
+    float distance2 = 0;
+  };
+  /// The `count` points nearest to x, or all if there are fewer; nearer ones first, of equal ones the first
+  /// in order().
+  void nearest(Vec3 x, size_t count, std::vector<Near>& out) const;
 
   /// Nodes still to be visited, depth first.
   class Stack {

@@ -40,21 +40,25 @@ bool LitMap::claim_any(uint32_t owner, size_t& sample) {
 
 slvm::Result<std::shared_ptr<LitMap>> ScatterMaps::get(const std::string& name) {
   std::lock_guard lock(mutex_);
-  if (auto found = maps_.find(name); found != maps_.end()) return found->second;
+  if (auto found = maps_.find(name); found != maps_.end()) return found->second.map;
   auto load = [&]() -> slvm::Result<std::shared_ptr<LitMap>> {
     auto cloud = loader_(name);
     if (!cloud) return slvm::Error{cloud.error()};
-    auto map = ScatterMap::build(*cloud);
+    auto map = ScatterMap::build(*cloud, pool_);
     if (!map) return slvm::Error{fmt::format("{}: {}", name, map.error())};
     return std::make_shared<LitMap>(std::move(*map));
   };
-  return maps_.emplace(name, load()).first->second;
+  std::vector<FileStamp> stamps = stamps_of(name); // of before it is read
+  return maps_.emplace(name, Entry{load(), std::move(stamps)}).first->second.map;
 }
 
 void ScatterMaps::forget_light() {
   std::lock_guard lock(mutex_);
-  for (auto& [name, map] : maps_)
-    if (map) map = std::make_shared<LitMap>((*map)->map());
+  std::erase_if(maps_, [&](const auto& item) {
+    return !item.second.map || item.second.stamps != stamps_of(item.first);
+  });
+  for (auto& [name, entry] : maps_)
+    if ((*entry.map)->lit() > 0) entry.map = std::make_shared<LitMap>((*entry.map)->map());
 }
 
 void ScatterGrid::forget_grid() {
@@ -64,6 +68,7 @@ void ScatterGrid::forget_grid() {
   near_.clear(), ends_.clear(), required_.clear(), foreign_.clear(), in_flight_.clear(),
       foreign_seen_.clear();
   handed_out_ = listed_ = 0;
+  reader_.reset();
   map_.reset();
 }
 
@@ -72,6 +77,7 @@ slvm::Result<bool> ScatterGrid::read_map(const std::string& name) {
   auto map = maps_.get(name);
   if (!map) return slvm::Error{map.error()};
   map_ = *map;
+  reader_.emplace(map_->map());
   return true;
 }
 
@@ -80,7 +86,7 @@ uint32_t ScatterGrid::add_grid_point(Vec3 P, float D) {
   const auto index = static_cast<uint32_t>(ends_.size());
   const bool listed = listed_ == index && near_.size() < kMostListed;
   if (map_ && D > 0 && is_finite(P))
-    map_->map().octree().for_each_within(P, D, [&](uint32_t sample, float) {
+    reader_->for_each_within(P, D, [&](uint32_t sample, float) {
       if (listed) near_.push_back(sample);
       need(sample);
     });
@@ -117,9 +123,10 @@ bool ScatterGrid::next_sample(size_t& sample) {
 bool ScatterGrid::get_sample(Vec3& P, Vec3& N, float& area) {
   size_t sample = 0;
   if (!map_ || !next_sample(sample)) return false;
-  P = map_->map().position(sample);
-  N = map_->map().normal(sample);
-  area = map_->map().area(sample);
+  const ScatterSample found = reader_->sample(static_cast<uint32_t>(sample));
+  P = found.position;
+  N = found.normal;
+  area = found.area;
   in_flight_.push_back(static_cast<uint32_t>(sample));
   ++handed_out_;
   return true;
@@ -134,16 +141,15 @@ void ScatterGrid::save_irradiance(Color irradiance) {
 Color ScatterGrid::scatter(uint32_t index, Vec3 P, Vec3 N, float D, Color tint) const {
   Color sum;
   if (!map_ || index >= ends_.size() || !(D > 0)) return sum;
-  const ScatterMap& map = map_->map();
-  auto add = [&](uint32_t sample) {
-    if (!map_->is_lit(sample)) return; // the shader left the loop early
-    const Vec3 Pi = map.position(sample);
-    const float weight = map.area(sample) * scatter_transmission(length(P - Pi), D) *
-                         bounce_attenuation(P, Pi, N, map.normal(sample), D);
-    sum += map_->irradiance(sample) * weight;
+  auto add = [&](uint32_t i) {
+    if (!map_->is_lit(i)) return; // the shader left the loop early
+    const ScatterSample s = reader_->sample(i);
+    const float weight = s.area * scatter_transmission(length(P - s.position), D) *
+                         bounce_attenuation(P, s.position, N, s.normal, D);
+    sum += map_->irradiance(i) * weight;
   };
   if (index >= listed_)
-    map.octree().for_each_within(P, D, [&](uint32_t sample, float) { add(sample); });
+    reader_->for_each_within(P, D, [&](uint32_t sample, float) { add(sample); });
   else
     for (size_t k = index ? ends_[index - 1] : 0; k < ends_[index]; ++k)
       add(near_[k]);

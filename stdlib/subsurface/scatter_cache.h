@@ -13,6 +13,7 @@
 #pragma once
 
 #include "stdlib/subsurface/scatter_map.h"
+#include "stdlib/subsurface/tree_file.h"
 
 #include <atomic>
 #include <deque>
@@ -60,20 +61,38 @@ private:
 class ScatterMaps {
 public:
   using Loader = std::function<slvm::Result<PointCloud>(const std::string& name)>;
+  /// What the loader's files are like; other stamps: they have changed.
+  using Stamper = std::function<std::vector<FileStamp>(const std::string& name)>;
+  static constexpr size_t kUsualBytes = size_t{256} << 20;
+
   /// The loader turns a name into samples; read_point_cloud() is one. It is called once for each name, one at
   /// a time.
-  explicit ScatterMaps(Loader loader) : loader_(std::move(loader)) {}
+  explicit ScatterMaps(Loader loader, Stamper stamper = {})
+      : loader_(std::move(loader)), stamper_(std::move(stamper)) {}
 
   slvm::Result<std::shared_ptr<LitMap>> get(const std::string& name);
-  /// Forgets all light, for a change of lights; maps stay. Grids that are at work end with the old light.
+  /// Forgets all light, for a change of lights. Maps stay, but for those whose files have changed or could
+  /// not be read. Grids that are at work end with what they have.
   void forget_light();
+  /// How much of the samples of maps by faces is in memory.
+  BlockPool& pool() { return *pool_; }
   /// A number that no other grid has.
   uint32_t new_owner() { return owners_.fetch_add(1); }
 
 private:
+  struct Entry {
+    slvm::Result<std::shared_ptr<LitMap>> map;
+    std::vector<FileStamp> stamps;
+  };
+  std::vector<FileStamp> stamps_of(const std::string& name) const {
+    return stamper_ ? stamper_(name) : std::vector<FileStamp>();
+  }
+
   Loader loader_;
+  Stamper stamper_;
+  std::shared_ptr<BlockPool> pool_ = std::make_shared<BlockPool>(kUsualBytes);
   std::mutex mutex_;
-  std::map<std::string, slvm::Result<std::shared_ptr<LitMap>>, std::less<>> maps_;
+  std::map<std::string, Entry, std::less<>> maps_;
   std::atomic<uint32_t> owners_{2};
 };
 
@@ -112,8 +131,9 @@ private:
   ScatterMaps& maps_;
   uint32_t owner_;
   std::shared_ptr<LitMap> map_;
-  std::vector<uint32_t> near_; // samples near each point, one point after another
-  std::vector<size_t> ends_;   // where in near_ those of each point end
+  mutable std::optional<ScatterReader> reader_; // of map_
+  std::vector<uint32_t> near_;                  // samples near each point, one point after another
+  std::vector<size_t> ends_;                    // where in near_ those of each point end
   size_t listed_ = 0; // points from here on are not in near_, which would be too long: they search anew
   std::deque<uint32_t> required_, foreign_, in_flight_;
   std::unordered_set<uint32_t> foreign_seen_;

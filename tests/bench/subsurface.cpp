@@ -1,15 +1,18 @@
 // What lookups of diffusion cost: the tree of Jensen and Buhler beside the sum over all samples, in one run,
-// by the number of samples and by epsilon; and by how much they differ. One thread. Usage: subsurface_bench
-// [--check]
+// by the number of samples and by epsilon; and by how much they differ. And what it costs to have a cloud
+// ready, by where it is kept. One thread. Usage: subsurface_bench [--check]
 //
 // The samples are those of a ball of white marble, 40 mm across, lit from above.
-#include "stdlib/subsurface/diffusion_tree.h"
+#include "stdlib/subsurface/lit_cloud.h"
 #include "tests/unit/subsurface/surfaces.h"
 
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <string>
+#include <unistd.h>
 
 namespace {
 
@@ -97,6 +100,66 @@ void print(size_t samples, const Scene& scene, float epsilon, const Exact& exact
               exact.seconds / row.seconds, row.terms, row.rms);
 }
 
+/// A folder that goes with the program.
+struct Folder {
+  Folder()
+      : path(std::filesystem::temp_directory_path() / ("subsurface_bench_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  std::filesystem::path path;
+};
+
+/// What it costs to have a cloud of 150 000 points ready, by where it is kept. False: something failed.
+bool print_caches() {
+  const Folder folder;
+  const std::string file = (folder.path / "lit.ply").string();
+  PointCloud cloud = test::ball(150000, kRadius);
+  for (Vec3 p : cloud.position)
+    cloud.albedo.push_back({0.5f + p.x / (4 * kRadius), 0.5f, 0.3f});
+  if (!write_point_cloud(file, cloud)) return false;
+  const CloudCache::Settings keep{size_t{1} << 30, (folder.path / "trees").string()};
+  bool fine = true;
+  auto get = [&](CloudCache& cache) {
+    const auto found = cache.get(file);
+    fine = fine && found;
+    return found ? found->cloud : nullptr;
+  };
+  auto fresh = [&](const CloudCache::Settings& settings) {
+    return seconds(
+        [&] {
+          CloudCache cache;
+          cache.configure(settings);
+          get(cache);
+        },
+        5);
+  };
+  const double built = fresh({keep.most_bytes, ""});
+  fresh(keep); // writes the tree
+  const double on_disk = fresh(keep);
+  CloudCache cache;
+  const auto lit = get(cache);
+  if (!lit) return false;
+  const double in_memory = seconds([&] { get(cache); }, 20);
+  const double material = seconds(
+                   [&] {
+                     lit->material({1, 2, 3}, 1.3f);
+                   },
+                   1),
+               material_again = seconds(
+                   [&] {
+                     lit->material({1, 2, 3}, 1.3f);
+                   },
+                   20);
+  std::printf("\n150000 points, ms: PLY read and tree built %.1f, tree from disk %.1f, in memory %.4f; "
+              "dipoles of all points %.1f, again %.4f\n",
+              built * 1e3, on_disk * 1e3, in_memory * 1e3, material * 1e3, material_again * 1e3);
+  return fine;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -114,5 +177,5 @@ int main(int argc, char** argv) {
   const Exact exact = sum_all(scene);
   for (float epsilon : {1.0f, 0.3f, 0.1f, 0.03f, 0.01f})
     print(150000, scene, epsilon, exact);
-  return 0;
+  return print_caches() ? 0 : 1;
 }

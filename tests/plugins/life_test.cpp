@@ -173,12 +173,14 @@ private:
   // Channel, then what there is of: middle, sides, blur or bias, filter.
   static std::string tell(const TextureLookup& l, float kind) {
     if (l.map != "map") return "it is missing";
-    EXPECT_EQ(l.points, 1u);
-    const float sides = 100 * l.along_u[0][0] + 10 * l.along_v[1][0];
-    for (uint32_t c = 0; c < l.channels; ++c)
-      l.result[c][0] = kind + sides + l.centre[0][0] + TextureLookup::at(l.sblur, 0) +
-                       TextureLookup::at(l.bias, 0) + (l.options.filter == "box" ? 0.25f : 0) +
-                       0.01f * static_cast<float>(l.first_channel + c);
+    for (size_t i = 0; i < l.points; ++i) {
+      EXPECT_TRUE(l.active(i));
+      const float sides = 100 * l.along_u[0][i] + 10 * l.along_v[1][i];
+      for (uint32_t c = 0; c < l.channels; ++c)
+        l.result[c][i] = kind + sides + l.centre[0][i] + TextureLookup::at(l.sblur, i) +
+                         TextureLookup::at(l.bias, i) + (l.options.filter == "box" ? 0.25f : 0) +
+                         0.01f * static_cast<float>(l.first_channel + c);
+    }
     return "";
   }
 };
@@ -189,9 +191,10 @@ struct WithMaps : TableServices {
 };
 
 struct PluginMaps : ::testing::Test, Plugged {
-  /// sv_maps at x = 0 and x = 1.
-  std::vector<float> ask(const std::string& what, const std::string& map, size_t component) {
-    auto surface = bind("surface s() { Ci = sv_maps(P, \"" + what + "\", \"" + map + "\"); }");
+  /// sv_maps, or another function like it, at x = 0 and x = 1.
+  std::vector<float> ask(const std::string& what, const std::string& map, size_t component,
+                         const std::string& function = "sv_maps") {
+    auto surface = bind("surface s() { Ci = " + function + "(P, \"" + what + "\", \"" + map + "\"); }");
     Grid grid = square(2, 1);
     ShadingContext context(machine, services_with_maps);
     if (surface) context.shade({.surface = surface.get()}, grid);
@@ -219,6 +222,30 @@ TEST_F(PluginMaps, LookupsOfEachKind) {
   EXPECT_THAT(ask("info", "map", 0), Each(640.0f));
   EXPECT_THAT(ask("info", "map", 1), Each(480.0f));
   EXPECT_THAT(ask("info", "map", 2), Each(2.0f));
+}
+
+TEST_F(PluginMaps, LookupsOfManyPointsAtOnce) {
+  using ::testing::FloatEq;
+  auto expect = [&](const char* what, size_t component, float at_0) {
+    EXPECT_THAT(ask(what, "map", component, "sv_many"), ElementsAre(FloatEq(at_0), FloatEq(at_0 + 1)))
+        << what << component;
+  };
+  expect("texture", 0, 1000 + 100 + 30 + 0.5f + 0.5f + 0.02f);
+  expect("texture", 2, 1000 + 100 + 30 + 0.5f + 0.5f + 0.06f);
+  expect("textureV", 1, 1000 + 100 + 30 + 0.5f + 0.5f + 0.01f);
+  expect("environment", 2, 2000 + 100 + 20 + 0.5f + 0.02f);
+  expect("environmentV", 0, 2000 + 100 + 20 + 0.5f + 0.5f + 0.01f);
+  expect("shadow", 0, 3000 + 100 + 20 + 0.5f);
+  expect("shadowV", 0, 3000 + 100 + 20 + 0.5f + 0.5f);
+  EXPECT_THAT(messages(), IsEmpty());
+  EXPECT_THAT(ask("shadow", "none", 0, "sv_many"), Each(-1.0f));
+  EXPECT_THAT(messages(), ElementsAre("1: RxShadowPoints of a plug-in, \"none\": it is missing (1)"));
+}
+
+TEST_F(PluginMaps, WhereTheCallIs) {
+  EXPECT_THAT(shade("\n\nCi = sv_where();", 1, 0), Each(0.0f));
+  EXPECT_THAT(shade("\n\nCi = sv_where();", 1, 1), Each(3.0f));
+  EXPECT_THAT(shade("\n\nCi = sv_where();", 1, 2), Each(1.0f));
 }
 
 TEST_F(PluginMaps, MapsThatAreMissing) {

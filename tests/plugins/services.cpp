@@ -138,10 +138,73 @@ int maps(RslContext*, int, const RslArg* argv[]) {
   return 0;
 }
 
+// The same for all points with one call each.
+int many(RslContext*, int, const RslArg* argv[]) {
+  RslColorIter result(argv[0]);
+  RslPointIter p(argv[1]);
+  RslStringIter what(argv[2]), map(argv[3]);
+  const unsigned int n = argv[0]->NumValues();
+  float s[4][16], t[4][16], corner[4][3 * 16], got[5 * 16] = {};
+  float blur = 0.5f;
+  char* tokens[] = {const_cast<char*>("blur")};
+  void* values[] = {&blur};
+  if (n > 16) return 9;
+  for (unsigned int i = 0; i < n; ++i, ++p)
+    for (int k = 0; k < 4; ++k) {
+      s[k][i] = corner[k][3 * i] = (*p)[0] + static_cast<float>(k % 2);
+      t[k][i] = k < 2 ? 0.0f : 3.0f;
+      corner[k][3 * i + 1] = k < 2 ? 1.0f : 3.0f;
+      corner[k][3 * i + 2] = 0;
+    }
+  const int points = static_cast<int>(n);
+  int status = -2, channels = 3;
+  if (!strcmp(*what, "texture"))
+    status = RxTexturePoints(*map, points, 2, channels = 5, s[0], t[0], s[1], t[1], s[2], t[2], s[3], t[3],
+                             got, "blur", &blur, NULL);
+  else if (!strcmp(*what, "textureV"))
+    status = RxTexturePointsV(*map, points, 0, 3, s[0], t[0], s[1], t[1], s[2], t[2], s[3], t[3], got, 1,
+                              tokens, values);
+  else if (!strcmp(*what, "environment"))
+    status = RxEnvironmentPoints(*map, points, 0, 3, corner[0], corner[1], corner[2], corner[3], got, NULL);
+  else if (!strcmp(*what, "environmentV"))
+    status = RxEnvironmentPointsV(*map, points, 1, 3, corner[0], corner[1], corner[2], corner[3], got, 1,
+                                  tokens, values);
+  else if (!strcmp(*what, "shadow"))
+    status = RxShadowPoints(*map, points, 0, corner[0], corner[1], corner[2], corner[3], got, NULL),
+    channels = 1;
+  else if (!strcmp(*what, "shadowV"))
+    status =
+        RxShadowPointsV(*map, points, 0, corner[0], corner[1], corner[2], corner[3], got, 1, tokens, values),
+    channels = 1;
+  for (unsigned int i = 0; i < n; ++i, ++result) {
+    const float* of_point = got + static_cast<unsigned int>(channels) * i;
+    (*result)[0] = status ? static_cast<float>(status) : of_point[0];
+    (*result)[1] = of_point[channels > 1 ? 1 : 0];
+    (*result)[2] = of_point[channels - 1];
+  }
+  return 0;
+}
+
+// The line, and 1 when the file is that of the shader.
+int where(RslContext*, int, const RslArg* argv[]) {
+  RslColorIter result(argv[0]);
+  char* file = nullptr;
+  int line = -1;
+  const int status = RxGetRIBFileContext(&line, &file);
+  for (unsigned int i = 0; i < argv[0]->NumValues(); ++i, ++result) {
+    (*result)[0] = static_cast<float>(status);
+    (*result)[1] = static_cast<float>(line);
+    (*result)[2] = file && !strcmp(file, "test.sl");
+  }
+  return 0;
+}
+
 RslFunction functions[] = {{"uniform color sv_visits()", visits, init, cleanup, begin, end},
                            {"void sv_tell()", tell, NULL, NULL},
                            {"color sv_ask(point)", ask, NULL, NULL},
                            {"color sv_maps(point, uniform string, uniform string)", maps, NULL, NULL},
+                           {"color sv_many(point, uniform string, uniform string)", many, NULL, NULL},
+                           {"uniform color sv_where()", where, NULL, NULL},
                            {NULL}};
 
 } // namespace

@@ -15,7 +15,9 @@ enum RixInterfaceId {
   k_RixGlobalTokenData, ///< RixTokenStorage
   k_RixRenderState,     ///< not served
   k_RixSamplingPattern, ///< not served
-  k_RixGrid             ///< RixGrid, during a call; other renderers do not have it
+  // Other renderers do not have these:
+  k_RixGrid,   ///< RixGrid, during a call
+  k_RixRunData ///< RixStorage of the program's run, which outlives frames: lock it
 };
 #define k_RixFrameData k_RixGlobalData
 

@@ -28,17 +28,22 @@ typedef enum {
   RxInfoMatrix
 } RxInfoType_t;
 
-/// A lookup in a map. kind: 0 texture, 1 environment, 2 shadow.
+/// A lookup in a map, over as many regions as there are points. kind: 0 texture, 1 environment, 2 shadow.
 typedef struct AnemoneLookup {
   const char* function; /* that asks: for messages */
   int kind;
   const char* map;
   int first_channel, channels;
-  float corners[4][3]; /* s and t, or directions, or points in "current" space */
+  int points;
+  /* s and t, or directions, or points in "current" space: component c of corner k of point i is
+     corner[k][c][i * stride] */
+  const float* corner[4][3];
+  int stride;
+  float own[4][3]; /* what they point to when there is one point */
   int tokens;
   char** token;
   void** value;
-  float* result;
+  float* result; /* the channels of each point side by side */
 } AnemoneLookup;
 
 /// The renderer's side. `call` is the one under way; null outside of calls.
@@ -58,8 +63,10 @@ typedef struct AnemonePluginServices {
   int (*lookup)(void* call, const AnemoneLookup* lookup);
   int (*texture_info)(void* call, const char* map, const char* name, void* result, int length,
                       RxInfoType_t* type, int* count);
+  /// Of the statement under way: the line of the shader and, as a text that lives on, its file. 0: done.
+  int (*place)(void* call, int* line, const char** file);
 } AnemonePluginServices;
-#define ANEMONE_PLUGIN_SERVICES 2
+#define ANEMONE_PLUGIN_SERVICES 3
 
 #define ANEMONE_SHARED __attribute__((weak, visibility("default")))
 #define ANEMONE_INLINE static __inline__ __attribute__((unused))
@@ -143,14 +150,21 @@ ANEMONE_INLINE int anemone_look_up_list(AnemoneLookup* lookup, va_list list) {
   return anemone_look_up(lookup, n, tokens, values);
 }
 ANEMONE_INLINE void anemone_set_lookup(AnemoneLookup* lookup, const char* function, int kind, const char* map,
-                                       int first, int channels, float* result) {
+                                       int points, int first, int channels, float* result) {
   memset(lookup, 0, sizeof *lookup);
   lookup->function = function;
   lookup->kind = kind;
   lookup->map = map;
+  lookup->points = points;
   lookup->first_channel = first;
   lookup->channels = channels;
   lookup->result = result;
+}
+ANEMONE_INLINE void anemone_set_own(AnemoneLookup* lookup) {
+  int k, c;
+  for (k = 0; k < 4; ++k)
+    for (c = 0; c < 3; ++c)
+      lookup->corner[k][c] = &lookup->own[k][c];
 }
 ANEMONE_INLINE void anemone_set_st(AnemoneLookup* lookup, float s0, float t0, float s1, float t1, float s2,
                                    float t2, float s3, float t3) {
@@ -158,21 +172,37 @@ ANEMONE_INLINE void anemone_set_st(AnemoneLookup* lookup, float s0, float t0, fl
   int k;
   st[0] = s0, st[1] = t0, st[2] = s1, st[3] = t1, st[4] = s2, st[5] = t2, st[6] = s3, st[7] = t3;
   for (k = 0; k < 8; ++k)
-    lookup->corners[k / 2][k % 2] = st[k];
+    lookup->own[k / 2][k % 2] = st[k];
+  anemone_set_own(lookup);
 }
 ANEMONE_INLINE void anemone_set_points(AnemoneLookup* lookup, const float* p0, const float* p1,
                                        const float* p2, const float* p3) {
-  memcpy(lookup->corners[0], p0, 3 * sizeof(float));
-  memcpy(lookup->corners[1], p1, 3 * sizeof(float));
-  memcpy(lookup->corners[2], p2, 3 * sizeof(float));
-  memcpy(lookup->corners[3], p3, 3 * sizeof(float));
+  memcpy(lookup->own[0], p0, 3 * sizeof(float));
+  memcpy(lookup->own[1], p1, 3 * sizeof(float));
+  memcpy(lookup->own[2], p2, 3 * sizeof(float));
+  memcpy(lookup->own[3], p3, 3 * sizeof(float));
+  anemone_set_own(lookup);
+}
+ANEMONE_INLINE void anemone_set_corner(AnemoneLookup* lookup, int k, const float* x, const float* y,
+                                       const float* z, int stride) {
+  lookup->corner[k][0] = x;
+  lookup->corner[k][1] = y;
+  lookup->corner[k][2] = z;
+  lookup->stride = stride;
+}
+ANEMONE_INLINE void anemone_set_many_points(AnemoneLookup* lookup, const float* p0, const float* p1,
+                                            const float* p2, const float* p3) {
+  anemone_set_corner(lookup, 0, p0, p0 + 1, p0 + 2, 3);
+  anemone_set_corner(lookup, 1, p1, p1 + 1, p1 + 2, 3);
+  anemone_set_corner(lookup, 2, p2, p2 + 1, p2 + 2, 3);
+  anemone_set_corner(lookup, 3, p3, p3 + 1, p3 + 2, 3);
 }
 
 ANEMONE_INLINE int RxTextureV(const char* map, int firstchannel, int nchannels, float s0, float t0, float s1,
                               float t1, float s2, float t2, float s3, float t3, float* result, int n,
                               char* tokens[], void* values[]) {
   AnemoneLookup lookup;
-  anemone_set_lookup(&lookup, "RxTexture", 0, map, firstchannel, nchannels, result);
+  anemone_set_lookup(&lookup, "RxTexture", 0, map, 1, firstchannel, nchannels, result);
   anemone_set_st(&lookup, s0, t0, s1, t1, s2, t2, s3, t3);
   return anemone_look_up(&lookup, n, tokens, values);
 }
@@ -181,7 +211,7 @@ ANEMONE_INLINE int RxTexture(const char* map, int firstchannel, int nchannels, f
   AnemoneLookup lookup;
   va_list list;
   int status;
-  anemone_set_lookup(&lookup, "RxTexture", 0, map, firstchannel, nchannels, result);
+  anemone_set_lookup(&lookup, "RxTexture", 0, map, 1, firstchannel, nchannels, result);
   anemone_set_st(&lookup, s0, t0, s1, t1, s2, t2, s3, t3);
   va_start(list, result);
   status = anemone_look_up_list(&lookup, list);
@@ -192,7 +222,7 @@ ANEMONE_INLINE int RxEnvironmentV(const char* map, int firstchannel, int nchanne
                                   const float* dir1, const float* dir2, const float* dir3, float* result,
                                   int n, char* tokens[], void* values[]) {
   AnemoneLookup lookup;
-  anemone_set_lookup(&lookup, "RxEnvironment", 1, map, firstchannel, nchannels, result);
+  anemone_set_lookup(&lookup, "RxEnvironment", 1, map, 1, firstchannel, nchannels, result);
   anemone_set_points(&lookup, dir0, dir1, dir2, dir3);
   return anemone_look_up(&lookup, n, tokens, values);
 }
@@ -202,7 +232,7 @@ ANEMONE_INLINE int RxEnvironment(const char* map, int firstchannel, int nchannel
   AnemoneLookup lookup;
   va_list list;
   int status;
-  anemone_set_lookup(&lookup, "RxEnvironment", 1, map, firstchannel, nchannels, result);
+  anemone_set_lookup(&lookup, "RxEnvironment", 1, map, 1, firstchannel, nchannels, result);
   anemone_set_points(&lookup, dir0, dir1, dir2, dir3);
   va_start(list, result);
   status = anemone_look_up_list(&lookup, list);
@@ -213,7 +243,7 @@ ANEMONE_INLINE int RxShadowV(const char* map, int firstchannel, const float* P0,
                              const float* P2, const float* P3, float* result, int n, char* tokens[],
                              void* values[]) {
   AnemoneLookup lookup;
-  anemone_set_lookup(&lookup, "RxShadow", 2, map, firstchannel, 1, result);
+  anemone_set_lookup(&lookup, "RxShadow", 2, map, 1, firstchannel, 1, result);
   anemone_set_points(&lookup, P0, P1, P2, P3);
   return anemone_look_up(&lookup, n, tokens, values);
 }
@@ -222,19 +252,100 @@ ANEMONE_INLINE int RxShadow(const char* map, int firstchannel, const float* P0, 
   AnemoneLookup lookup;
   va_list list;
   int status;
-  anemone_set_lookup(&lookup, "RxShadow", 2, map, firstchannel, 1, result);
+  anemone_set_lookup(&lookup, "RxShadow", 2, map, 1, firstchannel, 1, result);
   anemone_set_points(&lookup, P0, P1, P2, P3);
   va_start(list, result);
   status = anemone_look_up_list(&lookup, list);
   va_end(list);
   return status;
 }
+
+// The same for many points at once: arrays with a number of each point, or with three (dir0, P0...). The
+// channels of a point stand side by side in `result`.
+ANEMONE_INLINE int RxTexturePointsV(const char* map, int points, int firstchannel, int nchannels, float* s0,
+                                    float* t0, float* s1, float* t1, float* s2, float* t2, float* s3,
+                                    float* t3, float* result, int n, char* tokens[], void* values[]) {
+  AnemoneLookup lookup;
+  anemone_set_lookup(&lookup, "RxTexturePoints", 0, map, points, firstchannel, nchannels, result);
+  anemone_set_corner(&lookup, 0, s0, t0, t0, 1);
+  anemone_set_corner(&lookup, 1, s1, t1, t1, 1);
+  anemone_set_corner(&lookup, 2, s2, t2, t2, 1);
+  anemone_set_corner(&lookup, 3, s3, t3, t3, 1);
+  return anemone_look_up(&lookup, n, tokens, values);
+}
+ANEMONE_INLINE int RxTexturePoints(const char* map, int points, int firstchannel, int nchannels, float* s0,
+                                   float* t0, float* s1, float* t1, float* s2, float* t2, float* s3,
+                                   float* t3, float* result, ...) {
+  AnemoneLookup lookup;
+  va_list list;
+  int status;
+  anemone_set_lookup(&lookup, "RxTexturePoints", 0, map, points, firstchannel, nchannels, result);
+  anemone_set_corner(&lookup, 0, s0, t0, t0, 1);
+  anemone_set_corner(&lookup, 1, s1, t1, t1, 1);
+  anemone_set_corner(&lookup, 2, s2, t2, t2, 1);
+  anemone_set_corner(&lookup, 3, s3, t3, t3, 1);
+  va_start(list, result);
+  status = anemone_look_up_list(&lookup, list);
+  va_end(list);
+  return status;
+}
+ANEMONE_INLINE int RxEnvironmentPointsV(const char* map, int points, int firstchannel, int nchannels,
+                                        float* dir0, float* dir1, float* dir2, float* dir3, float* result,
+                                        int n, char* tokens[], void* values[]) {
+  AnemoneLookup lookup;
+  anemone_set_lookup(&lookup, "RxEnvironmentPoints", 1, map, points, firstchannel, nchannels, result);
+  anemone_set_many_points(&lookup, dir0, dir1, dir2, dir3);
+  return anemone_look_up(&lookup, n, tokens, values);
+}
+ANEMONE_INLINE int RxEnvironmentPoints(const char* map, int points, int firstchannel, int nchannels,
+                                       float* dir0, float* dir1, float* dir2, float* dir3, float* result,
+                                       ...) {
+  AnemoneLookup lookup;
+  va_list list;
+  int status;
+  anemone_set_lookup(&lookup, "RxEnvironmentPoints", 1, map, points, firstchannel, nchannels, result);
+  anemone_set_many_points(&lookup, dir0, dir1, dir2, dir3);
+  va_start(list, result);
+  status = anemone_look_up_list(&lookup, list);
+  va_end(list);
+  return status;
+}
+ANEMONE_INLINE int RxShadowPointsV(const char* map, int points, int firstchannel, float* P0, float* P1,
+                                   float* P2, float* P3, float* result, int n, char* tokens[],
+                                   void* values[]) {
+  AnemoneLookup lookup;
+  anemone_set_lookup(&lookup, "RxShadowPoints", 2, map, points, firstchannel, 1, result);
+  anemone_set_many_points(&lookup, P0, P1, P2, P3);
+  return anemone_look_up(&lookup, n, tokens, values);
+}
+ANEMONE_INLINE int RxShadowPoints(const char* map, int points, int firstchannel, float* P0, float* P1,
+                                  float* P2, float* P3, float* result, ...) {
+  AnemoneLookup lookup;
+  va_list list;
+  int status;
+  anemone_set_lookup(&lookup, "RxShadowPoints", 2, map, points, firstchannel, 1, result);
+  anemone_set_many_points(&lookup, P0, P1, P2, P3);
+  va_start(list, result);
+  status = anemone_look_up_list(&lookup, list);
+  va_end(list);
+  return status;
+}
+
 /// What textureinfo() tells: answers as those of RxAttribute.
 ANEMONE_INLINE int RxTextureInfo(const char* map, const char* name, void* result, int length,
                                  RxInfoType_t* type, int* count) {
   return anemone_services
              ? anemone_services->texture_info(anemone_call, map, name, result, length, type, count)
              : -1;
+}
+
+/// Where the renderer is: a shader is no RIB file, so that it is the line and the file of the shader that
+/// makes the call. 0: told; 1: no call is under way.
+ANEMONE_INLINE int RxGetRIBFileContext(int* line, char** file) {
+  const char* name = NULL;
+  int told = anemone_services && anemone_services->place(anemone_call, line, &name) == 0;
+  *file = told ? (char*)name : NULL;
+  return told ? 0 : 1;
 }
 
 #ifdef __cplusplus

@@ -64,15 +64,39 @@ typedef struct ANEMONE_STRING_DESC {
   ANEMONE_EXTERN_C_VARIABLE ANEMONE_EXPORT const int name##_threadsafe;                                      \
   const int name##_threadsafe = 1
 
-/// Of each thread, the last strings that ASSIGN_STRING kept.
+/// Of each thread, the last strings that ASSIGN_STRING kept. All of them end with the library.
+typedef struct ANEMONE_KEPT_STRINGS {
+  struct ANEMONE_KEPT_STRINGS* next;
+  unsigned turn;
+  char* text[16];
+} ANEMONE_KEPT_STRINGS;
+static ANEMONE_KEPT_STRINGS* volatile anemone_all_kept __attribute__((unused)) = NULL;
+
 static __inline__ __attribute__((unused)) char* anemone_keep_string(const char* text) {
-  static __thread char* kept[16];
-  static __thread unsigned next;
-  char** slot = &kept[next++ % 16];
+  static __thread ANEMONE_KEPT_STRINGS* mine;
+  char** slot;
   size_t size = strlen(text) + 1;
   char* copy = (char*)malloc(size);
   if (copy) memcpy(copy, text, size);
+  if (!mine) {
+    mine = (ANEMONE_KEPT_STRINGS*)calloc(1, sizeof *mine);
+    if (!mine) return copy;
+    do
+      mine->next = anemone_all_kept;
+    while (!__sync_bool_compare_and_swap(&anemone_all_kept, mine->next, mine));
+  }
+  slot = &mine->text[mine->turn++ % 16];
   free(*slot);
   return *slot = copy;
+}
+static __attribute__((destructor)) void anemone_free_kept(void) {
+  while (anemone_all_kept) {
+    ANEMONE_KEPT_STRINGS* kept = anemone_all_kept;
+    int i;
+    anemone_all_kept = kept->next;
+    for (i = 0; i < 16; ++i)
+      free(kept->text[i]);
+    free(kept);
+  }
 }
 #define ASSIGN_STRING(variable, text) ((variable) = anemone_keep_string(text))

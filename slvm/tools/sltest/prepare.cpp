@@ -119,6 +119,7 @@ bool prepare(const Setup& setup, ShaderLibrary& library, Prepared& prepared, Run
   for (const auto& [name, matrix] : setup.spaces)
     if (name != "object") prepared.scene.spaces[name] = matrix;
   prepared.scene.textures = std::make_shared<LazyTextures>(setup.path);
+  prepared.scene.clouds = std::make_shared<Clouds>(setup.path);
   if (!read_values(setup.attributes, prepared.scene.attributes, error) ||
       !read_values(setup.options, prepared.scene.options, error))
     return false;

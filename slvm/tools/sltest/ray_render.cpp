@@ -2,8 +2,10 @@
 #include "render/rays/ray_tracer.h"
 #include "render/shading/services.h"
 #include "render/state/interpreter.h"
+#include "render/state/search_path.h"
 #include "render/texture/texture_maps.h"
 #include "slvm/tools/sltest/ray_scene.h"
+#include "stdlib/scattering/cloud_lookups.h"
 
 namespace slvm::sltest {
 namespace {
@@ -38,7 +40,12 @@ public:
     settings.folders = request.path;
     textures_ = std::make_unique<render::TextureMaps>(settings);
     bound_ = std::make_unique<render::BoundShaders>(scene_, *request.machine, cache_, diagnostics);
-    services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, [](std::string_view) {});
+    lookups_ =
+        std::make_unique<subsurface::CloudLookups>(clouds_, [path = request.path](std::string_view name) {
+          return render::find_file(name, path).value_or(std::string(name));
+        });
+    services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, *lookups_,
+                                                        [](std::string_view) {});
     tracer_ = std::make_unique<render::RayTracer>(scene_, *request.machine, *bound_, *services_);
     tracer_->set_default_attributes(own);
     services_->set_rays(tracer_.get());
@@ -53,6 +60,8 @@ private:
   render::Scene scene_;
   std::unique_ptr<render::TextureMaps> textures_;
   std::unique_ptr<render::BoundShaders> bound_;
+  subsurface::CloudCache clouds_;
+  std::unique_ptr<subsurface::CloudLookups> lookups_;
   std::unique_ptr<render::SceneServices> services_;
   std::unique_ptr<render::RayTracer> tracer_;
   std::string problem_;

@@ -1,5 +1,7 @@
 #include "slvm/tools/sltest/services.h"
 
+#include <filesystem>
+
 namespace slvm::sltest {
 namespace {
 
@@ -100,6 +102,15 @@ bool MemoryServices::renderer_info(const ShadingState&, std::string_view name, V
     return false;
   return true;
 }
+
+Clouds::Clouds(std::vector<std::string> path)
+    : lookups(cache, [folders = std::move(path)](std::string_view name) {
+        namespace fs = std::filesystem;
+        std::error_code ec;
+        for (const std::string& folder : folders)
+          if (fs::path file = fs::path(folder) / name; fs::is_regular_file(file, ec)) return file.string();
+        return std::string(name);
+      }) {}
 
 TextureServices* MemoryServices::textures() {
   constexpr float kBias = 0.01f;

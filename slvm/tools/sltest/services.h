@@ -8,6 +8,7 @@
 #pragma once
 
 #include "slvm/machine.h"
+#include "stdlib/scattering/cloud_lookups.h"
 
 #include <map>
 #include <memory>
@@ -31,9 +32,18 @@ private:
   std::unique_ptr<TextureServices> textures_;
 };
 
+/// Clouds of points for subsurface(), of one case.
+struct Clouds {
+  explicit Clouds(std::vector<std::string> path);
+
+  subsurface::CloudCache cache;
+  subsurface::CloudLookups lookups;
+};
+
 /// What all runs of a case see of the world.
 struct Scene {
   std::shared_ptr<LazyTextures> textures;
+  std::shared_ptr<Clouds> clouds;
   std::map<std::string, Matrix4, std::less<>> spaces; ///< to "current"
   std::map<std::string, Value, std::less<>> attributes, options;
 };
@@ -53,6 +63,7 @@ public:
   void print(const ShadingState&, std::string_view text) override { printed_ += text; }
   TextureServices* textures() override;
   RayServices* rays() override { return rays_; }
+  SubsurfaceServices* subsurface() override { return scene_.clouds ? &scene_.clouds->lookups : nullptr; }
 
   const std::string& printed() const { return printed_; }
   void forget_printed() { printed_.clear(); }

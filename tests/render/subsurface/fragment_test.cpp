@@ -114,7 +114,8 @@ TEST_F(Fragments, PointsAreKeptAndFacesTurnRound) {
   for (int v : calls[0].integers(2).first(4))
     for (size_t c = 0; c < 2; ++c)
       face.push_back(pref[3 * static_cast<size_t>(v) + c]);
-  EXPECT_THAT(face, ElementsAre(1, 1, 1, 2, 2, 2, 2, 1)); // was 1 1, 2 1, 2 2, 1 2
+  EXPECT_THAT(face, ElementsAre(1, 1, 1, 2, 2, 2, 2, 1));              // was 1 1, 2 1, 2 2, 1 2
+  EXPECT_THAT(param(calls[0], "ScatterFace").numbers, ElementsAre(4)); // the middle one of nine
 }
 
 TEST_F(Fragments, VariablesOfAllClasses) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <map>
 #include <numbers>
+#include <set>
 
 namespace {
 
@@ -49,7 +50,7 @@ std::string ball(bool inside_out) {
 
 class ScatterMapFiles : public anemone::test::SlrenderTest {
 protected:
-  /// Renders NAME.tif with its three maps of ball.rib, whose middle is at (3, 0, 10) in the world.
+  /// Renders NAME.tif with its four maps of ball.rib, whose middle is at (3, 0, 10) in the world.
   void bake(const std::string& name, const std::string& transform = "", const std::string& camera = "") {
     file(name + ".rib", fmt::format(R"(
 Format 200 200 1
@@ -61,6 +62,7 @@ Display "{0}.tif" "tiff" "rgba"
 Display "+{0}P.tif" "tiff" "varying point ScatterP" "string compression" ["lzw"]
 Display "+{0}N.tif" "tiff" "varying normal ScatterN" "string compression" ["lzw"]
 Display "+{0}A.tif" "tiff" "varying float ScatterA" "string compression" ["lzw"]
+Display "+{0}F.tif" "tiff" "varying float ScatterF" "string compression" ["lzw"]
 Projection "orthographic"
 {2}
 WorldBegin
@@ -167,6 +169,31 @@ TEST_F(ScatterMapFiles, ShadersScatterByThem) {
   EXPECT_NEAR(at("skin.tif", 0.2, "knowing"), 0.995, 0.03);
   const Samples all = samples("skin");
   EXPECT_NEAR(at("skin.tif", 0.2, "knowing", 1), all.area / static_cast<double>(all.count), 2e-4);
+}
+
+// With a fourth picture samples are found by faces: the same picture, with most of them on disk as well.
+TEST_F(ScatterMapFiles, ByFaces) {
+  file("ball.rib", ball(false));
+  bake("skin");
+  const auto F = pixels("skinF.tif"), A = pixels("skinA.tif");
+  std::set<float> faces;
+  for (size_t i = 0; i < A.size(); ++i)
+    if (A[i] > 0) faces.insert(F[i]);
+  EXPECT_EQ(faces.size(), 96u);
+  EXPECT_EQ(*faces.rbegin(), 95);
+  auto look = [&](const std::string& option) {
+    file("b.rib", option + fmt::format(fmt::runtime(kPatch), "distantlight", "skin.tif", 0.3));
+    const Outcome o = run("b.rib");
+    EXPECT_EQ(o.text, "");
+    return pixels("out.tif");
+  };
+  const auto by_faces = look(""), short_of_memory = look("Option \"limits\" \"int octreememory\" 50\n");
+  std::filesystem::remove(directory_ / "skinF.tif");
+  const auto by_tree = look("");
+  EXPECT_EQ(short_of_memory, by_faces);
+  ASSERT_EQ(by_tree.size(), by_faces.size());
+  for (size_t i = 0; i < by_tree.size(); ++i)
+    EXPECT_NEAR(by_faces[i], by_tree[i], 1e-4f);
 }
 
 TEST_F(ScatterMapFiles, WhatIsNoScatterMap) {

@@ -124,15 +124,15 @@ TEST_F(SubsurfacePasses, BlockingByACloudInside) {
 
 const char* const kByMap = "#include \"subsurface.h\"\n"
                            R"(
-surface bymap(uniform string map = "", normals = "", inner = ""; uniform float diffusion = 0;) {
+surface bymap(uniform string map = "", normals = "", inner = "", outer = ""; uniform float diffusion = 0;) {
   vector In = normalize(I);
   normal Nn = normalize(N);
   color c = 0;
   illuminance(P, Nn, PI) {
     if (diffusion == 0)
-      c += Cl * singlescatteringbymap(P, Nn, In, L, .2, 1.8, .6, 1.4, 16, map, normals, inner, .05);
+      c += Cl * pastothers(outer, P) * singlescatteringbymap(P, Nn, In, L, .2, 1.8, .6, 1.4, 16, map, normals, inner, .05);
     else
-      c += Cl * diffusionscatteringbymap(P, L, color (.8, .5, .5), color (.2, .2, .1), 1.3, 64, map, inner, .05);
+      c += Cl * pastothers(outer, P) * diffusionscatteringbymap(P, L, color (.8, .5, .5), color (.2, .2, .1), 1.3, 64, map, inner, .05);
   }
   Oi = 1;
   Ci = c;
@@ -186,11 +186,138 @@ TEST_F(SubsurfaceByMaps, BlockersInside) {
     render(light_view(1, "l", kStraight, kPlate) + light_view(2, "above", kStraight, above) +
            light_view(3, "below", kStraight, below) + picture(4, "free.tif", maps) +
            picture(5, "above.tif", maps + " \"inner\" \"abovez.tif\"") +
+           picture(7, "shaded.tif", maps + " \"outer\" \"abovez.tif\"") +
+           picture(8, "free2.tif", maps + " \"outer\" \"belowz.tif\"") +
            picture(6, "below.tif", maps + " \"inner\" \"belowz.tif\""));
     EXPECT_LT(mean("above.tif"), 1e-5); // beyond the edge of the map nothing blocks
+    EXPECT_LT(mean("shaded.tif"), 1e-5);
+    EXPECT_EQ(pixels("free2.tif"), pixels("free.tif"));
     EXPECT_GT(mean("free.tif"), 0.005);
     EXPECT_EQ(pixels("below.tif"), pixels("free.tif"));
   }
+}
+
+// A surface that calls the built-in function, and one that calls the plug-in's.
+const char* const kBuiltIn = R"(
+surface builtin(uniform string cloud = "";) {
+  Oi = 1;
+  Ci = subsurface(P, N, "filename", cloud, "albedo", color (.8, .5, .2), "diffusemeanfreepath", color (2, 1, 1));
+}
+)";
+const char* const kPluggedIn = R"(
+surface pluggedin(uniform string cloud = "";) {
+  Oi = 1;
+  Ci = diffusion(transform("world", P), cloud, color (.8, .5, .2), color (2, 1, 1), 1.3, .05);
+}
+)";
+
+/// Passes for a plate lit from above: its cloud, and pictures of it.
+std::string lit_plate(int number, const std::string& cloud, double light) {
+  return frame(
+      number, "null.tif", 11, 200,
+      fmt::format("LightSource \"distantlight\" 1 \"from\" [0 0 -1] \"to\" [0 0 0] \"intensity\" {}\n"
+                  "Surface \"bakepoints\" \"file\" \"{}\" \"lit\" 1\n{}",
+                  light, cloud, kPlate));
+}
+std::string look(int number, const std::string& output, const std::string& surface,
+                 const std::string& cloud) {
+  return frame(number, output, 0.5, 8,
+               fmt::format("Surface \"{}\" \"cloud\" \"{}\"\n{}", surface, cloud, kPlate));
+}
+
+TEST_F(SubsurfacePasses, TheBuiltInFunctionAndThePlugInAgree) {
+  file("builtin.sl", kBuiltIn);
+  file("pluggedin.sl", kPluggedIn);
+  std::filesystem::create_directories(directory_ / "maps");
+  render(lit_plate(1, "maps/lit.ply", 1) + look(2, "plug.tif", "pluggedin", "maps/lit.ply") +
+         "Option \"searchpath\" \"texture\" \"maps\"\n" + look(3, "built.tif", "builtin", "lit.ply"));
+  const auto built = pixels("built.tif"), plugged = pixels("plug.tif");
+  ASSERT_EQ(built.size(), plugged.size());
+  for (size_t i = 0; i < built.size(); ++i)
+    EXPECT_NEAR(built[i], plugged[i], 1e-5f);
+  EXPECT_NEAR(middle("built.tif", 0), 0.8, 0.02);
+  EXPECT_NEAR(middle("built.tif", 1), 0.5, 0.005);
+}
+
+// What frames keep is good until a pass writes the cloud anew.
+TEST_F(SubsurfacePasses, AFrameSeesTheCloudOfThePassBefore) {
+  file("builtin.sl", kBuiltIn);
+  file("pluggedin.sl", kPluggedIn);
+  for (const char* surface : {"builtin", "pluggedin"}) {
+    render(lit_plate(1, "lit.ply", 1) + look(2, "one.tif", surface, "lit.ply") + lit_plate(3, "lit.ply", 2) +
+           look(4, "two.tif", surface, "lit.ply"));
+    EXPECT_NEAR(middle("two.tif", 1), 2 * middle("one.tif", 1), 1e-4) << surface;
+  }
+}
+
+TEST_F(SubsurfacePasses, TreesAreKeptBetweenRunsWhereTheSceneSays) {
+  file("builtin.sl", kBuiltIn);
+  file("pluggedin.sl", kPluggedIn);
+  namespace fs = std::filesystem;
+  const std::string option = "Option \"subsurface\" \"string treefolder\" \"trees\"\n";
+  auto tree_times = [&] {
+    std::vector<fs::file_time_type> times;
+    for (const auto& entry : fs::directory_iterator(directory_ / "trees"))
+      times.push_back(entry.last_write_time());
+    return times;
+  };
+  render(lit_plate(1, "lit.ply", 1));
+  render(look(1, "one.tif", "builtin", "lit.ply"));
+  EXPECT_FALSE(fs::exists(directory_ / "trees"));
+  render(option + look(1, "two.tif", "builtin", "lit.ply"));
+  const auto first = tree_times();
+  ASSERT_EQ(first.size(), 1u);
+  for (const char* surface : {"builtin", "pluggedin"}) {
+    render(option + look(1, "three.tif", surface, "lit.ply"));
+    EXPECT_EQ(tree_times(), first); // it was read, not written
+    EXPECT_NEAR(middle("three.tif", 1), middle("one.tif", 1), 1e-5);
+  }
+  EXPECT_EQ(pixels("two.tif"), pixels("one.tif"));
+  render(lit_plate(1, "lit.ply", 3));
+  render(option + look(1, "four.tif", "builtin", "lit.ply"));
+  EXPECT_NEAR(middle("four.tif", 1), 3 * middle("one.tif", 1), 1e-3);
+  EXPECT_NE(tree_times(), first);
+  file("occupied", "no folder");
+  file("a.rib", "Option \"subsurface\" \"string treefolder\" \"occupied\"\n" +
+                    look(1, "five.tif", "builtin", "lit.ply"));
+  const Outcome o = run("a.rib");
+  EXPECT_THAT(o.text, HasSubstr("builtin.sl:4: subsurface: cannot write 'occupied/lit-"));
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(pixels("five.tif"), pixels("four.tif"));
+}
+
+// Diffusion, single scattering and reflection as pictures of their own add up to the whole.
+TEST_F(SubsurfacePasses, ComponentsAddUp) {
+  auto look_at = [&](int number, const std::string& output, int diffuse, int single, int specular) {
+    return frame(
+        number, output, 0.5, 8,
+        fmt::format(
+            "{}Attribute \"visibility\" \"trace\" 1\nSurface \"translucentsolid\" \"cloud\" \"lit.ply\" "
+            "\"color albedo\" [.8 .5 .2] \"color freepath\" [2 1 1] \"Kdiffuse\" {} \"Ksingle\" {} "
+            "\"Kspecular\" {} \"samples\" 64\n{}",
+            kSlantedLight, diffuse, single, specular, kPlate));
+  };
+  render(lit_plate(1, "lit.ply", 1) + look_at(2, "all.tif", 1, 1, 1) + look_at(3, "diffuse.tif", 1, 0, 0) +
+         look_at(4, "single.tif", 0, 1, 0) + look_at(5, "specular.tif", 0, 0, 1));
+  EXPECT_GT(mean("single.tif"), 0.001);
+  EXPECT_GT(mean("diffuse.tif"), 0.1);
+  for (size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(mean("all.tif", c), mean("diffuse.tif", c) + mean("single.tif", c) + mean("specular.tif", c),
+                2e-4);
+}
+
+// A wall just above a translucent plate receives what comes out of it.
+TEST_F(SubsurfacePasses, TranslucencyCountsWhenLightBleeds) {
+  file("builtin.sl", kBuiltIn);
+  file("wall.sl", "surface wall() { Oi = 1; Ci = indirectdiffuse(P, normalize(N), 64); }\n");
+  render(lit_plate(1, "lit.ply", 1) + look(2, "plate.tif", "builtin", "lit.ply") +
+         frame(3, "wall.tif", 0.2, 8,
+               "Attribute \"visibility\" \"diffuse\" 1\nSurface \"builtin\" \"cloud\" \"lit.ply\"\n" +
+                   std::string(kPlate) +
+                   "Surface \"wall\"\nReverseOrientation\nPolygon \"P\" [-1 -1 -.05 -1 1 -.05 1 1 -.05 1 -1 "
+                   "-.05]\n"));
+  for (size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(mean("wall.tif", c), mean("plate.tif", c), 0.02 * mean("plate.tif", c));
 }
 
 TEST_F(SubsurfacePasses, AFileThatIsMissingIsNamedWithTheShadersLine) {

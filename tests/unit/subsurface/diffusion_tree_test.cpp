@@ -230,6 +230,92 @@ TEST(DiffusionTree, OnlyWhatIsInTheShell) {
   }
 }
 
+// Across the surface in small steps: how far the sum is from straight between neighbouring steps.
+double roughest_step(const DiffusionTree& tree, const LookupOptions& options) {
+  const DiffusionMaterial material(kMarble);
+  std::vector<Vec3> x;
+  for (int i = 0; i < 3000; ++i) {
+    const float angle = 0.3f + 0.0002f * static_cast<float>(i);
+    x.push_back(Vec3{std::sin(angle), 0, std::cos(angle)} * 20);
+  }
+  std::vector<Color> sums(x.size());
+  tree.exitance(material, x, options, sums);
+  double worst = 0;
+  for (size_t i = 1; i + 1 < sums.size(); ++i)
+    worst = std::max(
+        worst, static_cast<double>(std::abs(sums[i - 1].y - 2 * sums[i].y + sums[i + 1].y) / sums[i].y));
+  return worst;
+}
+
+TEST(DiffusionTree, SmoothLookupsHaveNoEdges) {
+  const PointCloud cloud = ball(40000, 20);
+  const auto tree = DiffusionTree::build(cloud);
+  ASSERT_TRUE(tree);
+  LookupOptions options;
+  options.epsilon = 0.5f;
+  const double edges = roughest_step(*tree, options);
+  options.smooth = true;
+  const double smooth = roughest_step(*tree, options);
+  EXPECT_GT(edges, 1e-3);
+  EXPECT_LT(smooth, edges / 10);
+  // And no worse beside the sum.
+  const Probes p = probes(cloud, 60);
+  const DiffusionMaterial material(kMarble);
+  double off[2] = {};
+  for (int with : {0, 1}) {
+    options.smooth = with;
+    for (size_t k = 0; k < p.x.size(); ++k)
+      off[with] +=
+          std::abs(static_cast<double>(tree->exitance(material, p.x[k], options).y / p.exact[k].y) - 1);
+  }
+  EXPECT_LT(off[1], off[0]);
+}
+
+// Two plates that face each other, as lips do: one is lit, and no light crosses the air to the other.
+TEST(DiffusionTree, FollowingTheTopologyKeepsLightOutOfTheAir) {
+  PointCloud cloud = plate(60, 30, {1, 1, 1}), lower = plate(60, 30, {});
+  for (size_t i = 0; i < cloud.size(); ++i) {
+    cloud.position[i].z = 0.1f;
+    cloud.normal[i] = {0, 0, -1};
+    lower.normal[i] = {0, 0, 1};
+  }
+  const auto tree = DiffusionTree::build(cloud);
+  ASSERT_TRUE(tree && tree->has_normals());
+  const DiffusionMaterial material(kMarble);
+  const Vec3 x{1, 2, 0}, up[] = {{0, 0, 1}}, down[] = {{0, 0, -1}};
+  LookupOptions plain, follow, half, own;
+  follow.normals = half.normals = up;
+  own.normals = down;
+  follow.follow_topology = own.follow_topology = 1;
+  half.follow_topology = 0.5f;
+  const Color free = tree->exitance(material, x, plain);
+  EXPECT_GT(free.x, 0.1f);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(tree->exitance(material, x, follow)[c], 0, 1e-6f);
+    EXPECT_NEAR(tree->exitance(material, x, half)[c], free[c] / 2, 1e-5f);
+    EXPECT_NEAR(tree->exitance(material, x, own)[c], free[c], 1e-5f); // the same side: nothing is lost
+  }
+}
+
+TEST(DiffusionTree, FollowingTheTopologyAgreesBetweenGroupsAndSamples) {
+  const PointCloud cloud = ball(20000, 20);
+  const auto tree = DiffusionTree::build(cloud);
+  ASSERT_TRUE(tree);
+  const DiffusionMaterial material(kMarble);
+  for (size_t i = 0; i < cloud.size(); i += 700) {
+    const Vec3 n[] = {normalize(cloud.normal[i] + Vec3{0.5f, 0, -1})};
+    LookupOptions exact, grouped;
+    exact.normals = grouped.normals = n;
+    exact.follow_topology = grouped.follow_topology = 0.8f;
+    exact.epsilon = 0;
+    grouped.epsilon = 0.02f;
+    const Color a = tree->exitance(material, cloud.position[i], exact),
+                b = tree->exitance(material, cloud.position[i], grouped);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(b[c] / a[c], 1, 0.03) << i;
+  }
+}
+
 TEST(DiffusionTree, SaysWhatIsMissing) {
   PointCloud cloud = ball(10, 1);
   cloud.irradiance.clear();

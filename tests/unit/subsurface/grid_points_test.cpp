@@ -46,6 +46,31 @@ TEST(GridPoints, CollapsedMicropolygonsAndGivenNormals) {
   EXPECT_EQ(cloud.size(), 1u);
 }
 
+// Middles of flat micropolygons lie below a ball; normals tell by how much.
+TEST(GridPoints, PointsOfACurvedSurfaceAreOnIt) {
+  constexpr size_t kN = 12;
+  std::vector<Vec3> p, n;
+  for (size_t v = 0; v < kN; ++v)
+    for (size_t u = 0; u < kN; ++u) {
+      const float a = 0.1f * static_cast<float>(u), b = 1 + 0.1f * static_cast<float>(v);
+      n.push_back({std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), std::cos(b)});
+      p.push_back(n.back() * 5);
+    }
+  PointCloud flat, bulging, wild;
+  append_grid(flat, {kN, kN, p, {}, {}, {}});
+  append_grid(bulging, {kN, kN, p, n, {}, {}});
+  for (size_t i = 0; i < flat.size(); ++i) {
+    EXPECT_LT(length(flat.position[i]), 4.994f);
+    EXPECT_NEAR(length(bulging.position[i]), 5, 1e-4f);
+  }
+  // Shading normals may be anything.
+  for (size_t i = 0; i < n.size(); ++i)
+    n[i] = i % 2 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
+  append_grid(wild, {kN, kN, p, n, {}, {}});
+  for (size_t i = 0; i < flat.size(); ++i)
+    EXPECT_LT(length(wild.position[i] - flat.position[i]), 0.1f); // of cells 0.7 across
+}
+
 TEST(GridPoints, ThinnedPointsStandForEqualAreas) {
   PointCloud cloud = uneven(200);
   cloud.channels.push_back({"x", {}});

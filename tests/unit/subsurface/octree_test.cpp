@@ -75,6 +75,34 @@ TEST(PointOctree, ExtremePlaces) {
   EXPECT_EQ(count, 50u);
 }
 
+TEST(PointOctree, Nearest) {
+  std::vector<Vec3> points = random_points(2000, 7);
+  const Vec3 place = points[17];
+  points.insert(points.end(), 5, place); // equal ones
+  const PointOctree tree(points);
+  std::vector<PointOctree::Near> near;
+  auto probes = random_points(50, 8);
+  probes.push_back(place);
+  probes.push_back({5, -3, 2});
+  for (Vec3 x : probes) {
+    std::vector<float> all;
+    for (Vec3 p : points)
+      all.push_back(length2(x - p));
+    std::sort(all.begin(), all.end());
+    tree.nearest(x, 9, near);
+    ASSERT_EQ(near.size(), 9u);
+    for (size_t i = 0; i < near.size(); ++i) {
+      EXPECT_EQ(near[i].distance2, all[i]);
+      EXPECT_EQ(near[i].distance2, length2(x - tree.positions()[near[i].place]));
+      EXPECT_TRUE(i == 0 || near[i - 1].distance2 < near[i].distance2 || near[i - 1].place < near[i].place);
+    }
+  }
+  tree.nearest({}, 10000, near);
+  EXPECT_EQ(near.size(), points.size());
+  PointOctree().nearest({}, 3, near);
+  EXPECT_TRUE(near.empty());
+}
+
 TEST(PointOctree, NearAndFarDistances) {
   PointOctree::Node node;
   node.centre = {1, 1, 1};

@@ -264,7 +264,7 @@ TEST(Scatter, MapsFromPictures) {
   EXPECT_EQ(cloud_of_scatter_images(2, 3, P, N, A).error(),
             "the pictures of a scatter map must have the same size, 2 x 3: positions and normals with three "
             "channels, "
-            "areas with one");
+            "areas and faces with one");
   PointCloud bare;
   bare.position = {{0, 0, 0}};
   EXPECT_EQ(ScatterMap::build(bare).error(), "a scatter map needs normals");
