@@ -46,6 +46,25 @@ struct SurfacePlace {
   bool displaced = false; ///< the faces hit were those of the displaced surface
 };
 
+/// One of the primitives of an item, and where its faces are.
+struct ItemPart {
+  uint32_t primitive = 0; ///< of the scene
+  uint32_t first_face = 0;
+  uint8_t log_u = 0, log_v = 0; ///< 2 to the power of these: faces along u and v
+  bool displaced = false;       ///< its faces are those of the displaced surface
+};
+
+/// Finds the part of an item that a face is of: looks only among those that begin in the face's block.
+class PartIndex {
+public:
+  void build(std::span<const ItemPart> parts, uint32_t faces);
+  size_t find(std::span<const ItemPart> parts, uint32_t face) const;
+
+private:
+  int shift_ = 0;               ///< a block is 2 to the power of this
+  std::vector<uint32_t> first_; ///< part of the first face of each block, and the last part
+};
+
 class RayGeometry final : public ItemFaces {
 public:
   /// All arguments must outlive this. `displacer` may be null.
@@ -78,10 +97,10 @@ public:
 private:
   struct Item {
     RayTraits traits;
-    std::vector<uint32_t> primitives;
-    std::vector<uint32_t> first_face; ///< of each primitive, and the end
-    std::vector<FaceRate> rates;
-    std::vector<uint8_t> displaced; ///< of each primitive: its faces are those of the displaced surface
+    std::vector<ItemPart> parts;
+    std::vector<FaceRate> rates; ///< of each part
+    uint32_t faces_all = 0;      ///< of all parts
+    PartIndex part_index;
     Box bounds;
     std::unique_ptr<const RaySolid> solid; ///< that the primitives bound; null: none
     uint32_t model = 0;                    ///< the item whose faces these are: itself, or the first instance
@@ -94,7 +113,7 @@ private:
     std::atomic<uint64_t> used{0};
   };
   class Gatherer;
-  size_t part_of(const Item& item, uint32_t face) const;
+  const Primitive& primitive_of(const Item& item, uint32_t face) const;
 
   const FaceScene* faces(uint32_t item) override;
   void make(Item& item);

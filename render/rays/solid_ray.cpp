@@ -34,7 +34,9 @@ std::vector<uint32_t> RayGeometry::bounding(uint32_t index, Vec3 origin,
     const RayHit &x = crossings[a].hit, &y = crossings[b].hit;
     return x.distance != y.distance ? x.distance < y.distance : x.face < y.face;
   });
-  auto node_of = [&](uint32_t k) { return solid.node[part_of(item, crossings[k].hit.face)]; };
+  auto node_of = [&](uint32_t k) {
+    return solid.node[item.part_index.find(item.parts, crossings[k].hit.face)];
+  };
   SolidHits hits;
   std::vector<uint32_t> numbers; // of what is in `hits`
   std::vector<uint8_t> done(order.size());
