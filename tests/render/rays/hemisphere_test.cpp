@@ -93,12 +93,11 @@ TEST(HemispherePattern, as_many_cells_as_samples) {
 
 TEST(HemispherePattern, directions_are_as_dense_as_they_should_be) {
   // Mean cosine: 2/3 by cosine, 1/2 evenly; in a cone of 60 degrees 7/9 and 3/4; all round 0.
-  HemispherePattern p = make_pattern(1024, 0);
   auto mean = [&](float cone, bool cosine, auto&& f) {
     double sum = 0;
-    for (int j = 0; j < p.rings; ++j)
-      sum += f(direction_in(p, j, 0, 0.5f, 0.5f, cone, cosine).cosine);
-    return sum / p.rings;
+    for (int j = 0; j < 64; ++j)
+      sum += f(CosineOfRadius(cone, cosine)((static_cast<float>(j) + 0.5f) / 64));
+    return sum / 64;
   };
   auto same = [](float c) { return c; };
   EXPECT_NEAR(mean(kPi / 2, true, same), 2.0 / 3, 2e-3);
@@ -296,7 +295,7 @@ TEST(Hemisphere, interpolation_keeps_near_the_exact_values) {
     size_t before = s.tracer().usage().hemispheres;
     ask.run();
     size_t taken = s.tracer().usage().hemispheres - before;
-    EXPECT_LT(taken, 289u / (max_error > 0.3f ? 10 : 3)) << max_error;
+    EXPECT_LT(taken, max_error > 0.3f ? 28u : 120u) << max_error;
     EXPECT_GE(taken, 4u);
     double worst = 0, squares = 0;
     for (size_t k = 0; k < 289; ++k) {
