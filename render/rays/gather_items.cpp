@@ -242,7 +242,7 @@ RayGeometry::Item& RayGeometry::Gatherer::add(const RayTraits& traits, const Lis
   return *out_.items_.emplace_back(std::move(item));
 }
 
-/// A solid is one item, seen by all rays that see any of its surfaces. Those that none sees bound it, too.
+/// A solid is one item. Surfaces that no ray sees bound it, too.
 void RayGeometry::Gatherer::add_solid(const std::shared_ptr<const SolidTree>& tree, const List& primitives) {
   auto solid = std::make_unique<RaySolid>();
   solid->tree = tree;

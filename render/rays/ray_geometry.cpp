@@ -121,10 +121,12 @@ RayOpacity RayGeometry::shadow(const RayHit& hit) const {
   return item.solid ? primitive_of(item, hit.face).attributes().rays.shadow() : item.traits.shadow;
 }
 
+namespace {
+
 /// A subset names groups that are seen, or, with "-", groups that are not; with only the latter all others
 /// are.
-bool RayGeometry::group_is_in(uint32_t groups, std::string_view subset) const {
-  std::vector<std::string_view> members = words_of(groups_[groups]);
+bool is_in(std::string_view groups, std::string_view subset) {
+  std::vector<std::string_view> members = words_of(groups);
   bool wanted = false, any_wanted = false;
   for (std::string_view word : words_of(subset)) {
     bool without = word[0] == '-';
@@ -137,20 +139,40 @@ bool RayGeometry::group_is_in(uint32_t groups, std::string_view subset) const {
   return wanted || !any_wanted;
 }
 
-const uint8_t* RayGeometry::seen(slvm::RayKind kind, std::string_view subset) {
-  std::lock_guard lock(seen_mutex_);
-  auto [it, is_new] = seen_.try_emplace({kind, std::string(subset)});
-  std::vector<uint8_t>& out = it->second;
-  if (!is_new) return out.data();
-  out.resize(items_.size() + 1); // never without data
+bool is_visible(slvm::RayKind kind, bool specular, bool diffuse, RayOpacity shadow) {
+  switch (kind) {
+  case slvm::RayKind::kSpecular: return specular;
+  case slvm::RayKind::kDiffuse: return diffuse;
+  case slvm::RayKind::kTransmission: return shadow != RayOpacity::kTransparent;
+  }
+  return false;
+}
+
+} // namespace
+
+void RayGeometry::find_seen(slvm::RayKind kind, std::string_view subset, Seen& out) const {
+  out.items.resize(items_.size() + 1); // never without data
   for (size_t i = 0; i < items_.size(); ++i) {
     const RayTraits& t = items_[i]->traits;
-    bool visible = kind == slvm::RayKind::kSpecular  ? t.specular
-                   : kind == slvm::RayKind::kDiffuse ? t.diffuse
-                                                     : t.shadow != RayOpacity::kTransparent;
-    out[i] = visible && group_is_in(t.groups, subset);
+    if (!items_[i]->solid) {
+      out.items[i] = is_visible(kind, t.specular, t.diffuse, t.shadow) && is_in(groups_[t.groups], subset);
+      continue;
+    }
+    out.surfaces.resize(scene_.primitives.size());
+    for (const ItemPart& part : items_[i]->parts) {
+      const RayAttributes& a = scene_.primitives[part.primitive].attributes().rays;
+      const bool seen = is_visible(kind, a.specular, a.diffuse, a.shadow()) && is_in(a.groups, subset);
+      out.surfaces[part.primitive] = seen;
+      out.items[i] = out.items[i] || seen;
+    }
   }
-  return out.data();
+}
+
+RayRule RayGeometry::rule(slvm::RayKind kind, std::string_view subset, slvm::HitSides sides) {
+  std::lock_guard lock(seen_mutex_);
+  auto [it, is_new] = seen_.try_emplace({kind, std::string(subset)});
+  if (is_new) find_seen(kind, subset, it->second);
+  return {it->second.items.data(), it->second.surfaces.data(), sides};
 }
 
 void RayGeometry::trim() {

@@ -77,13 +77,13 @@ public:
   size_t items() const { return items_.size(); }
   SurfacePlace place(const RayHit& hit) const;
   bool same_surface(uint32_t item, uint32_t face, uint32_t other) const override;
-  std::vector<uint32_t> bounding(uint32_t item, Vec3 origin,
+  std::vector<uint32_t> bounding(uint32_t item, const RayRule&, Vec3 origin,
                                  std::span<const RayCrossing> crossings) const override;
   /// What shadows of a surface are like.
   RayOpacity shadow(const RayHit& hit) const;
 
-  /// One an item: whether rays of a kind that see only `subset` (RayOptions) see it. Valid as long as this.
-  const uint8_t* seen(slvm::RayKind kind, std::string_view subset);
+  /// Which hits count for rays of a kind that see only `subset` (RayOptions). Valid as long as this.
+  RayRule rule(slvm::RayKind kind, std::string_view subset, slvm::HitSides sides);
   /// One an item: whether it lets no light through to transmission rays.
   const uint8_t* solid() const { return solid_.data(); }
 
@@ -117,7 +117,12 @@ private:
 
   const FaceScene* faces(uint32_t item) override;
   void make(Item& item);
-  bool group_is_in(uint32_t groups, std::string_view subset) const;
+  bool is_seen(const Item&, const RayRule&, const RayCrossing&) const;
+  struct Seen {
+    std::vector<uint8_t> items;
+    std::vector<uint8_t> surfaces; ///< by primitive of the scene; only those of solids are told
+  };
+  void find_seen(slvm::RayKind kind, std::string_view subset, Seen& out) const;
 
   const Scene& scene_;
   Displacer* displacer_;
@@ -129,7 +134,7 @@ private:
   std::unique_ptr<RayWorld> world_;
   std::shared_mutex gate_;
   std::mutex seen_mutex_;
-  std::map<std::pair<slvm::RayKind, std::string>, std::vector<uint8_t>, std::less<>> seen_;
+  std::map<std::pair<slvm::RayKind, std::string>, Seen, std::less<>> seen_;
   std::atomic<uint64_t> clock_{1};
   std::atomic<size_t> made_{0}, dropped_{0}, faces_{0};
 };
