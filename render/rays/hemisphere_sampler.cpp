@@ -61,7 +61,7 @@ HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState
 
 uint64_t HemisphereSampler::call_hash(const HemispherePoint& p) const {
   uint64_t h = mix(mix(mix(mix(call_, p.cone), p.max_distance), p.bias), p.base);
-  if (p.base != 0)
+  if (p.base != 0 && !interpolated_) // else the element is a function of the place
     for (Vec3 side : {p.along_u, p.along_v})
       for (int c = 0; c < 3; ++c)
         h = mix(h, side[c]);

@@ -18,8 +18,9 @@ namespace {
 
 const std::string kSeen = "Attribute \"visibility\" \"trace\" 1 Attribute \"trace\" \"float bias\" .0005 ";
 
-std::string world(const std::string& rib) {
-  return "Format 100 100 1 Projection \"perspective\" \"fov\" 45 WorldBegin " + kSeen + rib + " WorldEnd";
+std::string world(const std::string& rib, int size = 100) {
+  return "Format " + std::to_string(size) + " " + std::to_string(size) +
+         " 1 Projection \"perspective\" \"fov\" 45 WorldBegin " + kSeen + rib + " WorldEnd";
 }
 
 /// A hemisphere query of points that are set by `place`.
@@ -371,11 +372,13 @@ TEST(Hemisphere, grids_agree_on_the_edge_they_share_in_any_order) {
 /// A plane with a sphere of radius 0.5 resting on it, as facets of 2 x 2 points that are asked for in this
 /// order: occlusion by number of the facet, and how many samples that took.
 std::vector<float> facets_by(const std::vector<int>& order, int across, size_t& samples) {
-  RayScene s(world("Translate 0 .5 6 Sphere .5 -.5 .5 360"));
+  RayScene s(world("Translate 0 .5 6 Sphere .5 -.5 .5 360", 400)); // pixels smaller than facets
   std::vector<float> out(order.size() * 4);
   for (int facet : order) {
     Ask ask(s, 2, 2);
     ask.query.max_error = 0.3f;
+    const std::vector<float> base(4, 1.0f); // as shaders have it: origins spread over the element
+    ask.query.sample_base = base.data();
     for (size_t k = 0; k < 4; ++k) {
       const int i = 2 * (facet % across) + static_cast<int>(k % 2),
                 j = 2 * (facet / across) + static_cast<int>(k / 2);
