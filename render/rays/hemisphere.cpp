@@ -90,9 +90,9 @@ public:
 private:
   /// Smaller grids are too small to be interpolated in themselves.
   static constexpr size_t kFewestOfLattice = 64;
-  /// Radius in pixels that samples reach with the rays they are asked for, and how many times these are shot
-  /// at most.
-  static constexpr float kPixelsAPass = 7, kMostPasses = 4;
+  /// Samples that reach so many pixels for each time they are taken are taken again, as long as all their
+  /// rays together are no more than so many.
+  static constexpr float kPixelsAPass = 7, kMostPasses = 4, kRaysOfPasses = 256;
 
   /// Samples are kept for a frame, in which nothing moves: in one space as in another. It must exist, though.
   void check_space() {
@@ -163,10 +163,11 @@ private:
     return s;
   }
 
-  /// A sample that stands for many pixels is worth more rays than one among many: noise that is interpolated
-  /// becomes blotches, which no pixel filter takes away.
+  /// A sample that stands for many pixels is worth more than few rays: noise that is interpolated becomes
+  /// blotches, which no pixel filter takes away.
   HemisphereSample refined(HemispherePoint p, const HemisphereSample& first, float pixels) {
-    const int passes = static_cast<int>(std::clamp(pixels / kPixelsAPass, 1.0f, kMostPasses));
+    const float most = std::min(kMostPasses, kRaysOfPasses / std::max(query_.samples, 1.0f));
+    const int passes = static_cast<int>(std::clamp(pixels / kPixelsAPass, 1.0f, std::max(most, 1.0f)));
     if (passes == 1) return first;
     std::vector<HemisphereSample> samples{first};
     for (int i = 1; i < passes; ++i) {
