@@ -52,6 +52,12 @@ template <class F> void transform_all(const Vec3* from, size_t count, Triple to,
   }
 }
 
+void transform_points(const Matrix4& m, const Vec3* from, size_t count, Triple to) {
+  if (!is_affine(m)) return transform_all(from, count, to, [&](Vec3 p) { return transform_point(m, p); });
+  const Vec3 origin(m(3, 0), m(3, 1), m(3, 2));
+  transform_all(from, count, to, [&](Vec3 p) { return transform_vector(m, p) + origin; });
+}
+
 std::vector<float> parameters(float from, float to, int n) {
   std::vector<float> out(static_cast<size_t>(n));
   for (int i = 0; i < n; ++i)
@@ -62,25 +68,29 @@ std::vector<float> parameters(float from, float to, int n) {
 
 class Dicer {
 public:
-  Dicer(std::span<const SurfacePoints> parts, const DiceContext& context, slvm::Grid& grid)
+  Dicer(std::span<const SurfacePoints> parts, const DiceContext& context, const ReadVariables& read,
+        slvm::Grid& grid)
       : parts_(parts), first_(*parts.front().primitive), attributes_(first_.attributes()), context_(context),
-        grid_(grid) {}
+        read_(read), grid_(grid) {}
 
-  void run(const SurfaceLattice& lattice, const VarFilter& is_read) {
+  void run(const SurfaceLattice& lattice) {
     grid_.object_to_current = first_.state->object_to_camera;
     grid_.user = &first_;
     set_geometry(lattice);
-    set_parameters();
+    set_uniforms();
+    if (read_.has(Global::ku) || read_.has(Global::kv) || read_.has(Global::ks) || read_.has(Global::kt))
+      set_parameters();
     set_colours();
     for (size_t i = 0; i < first_.vars.size(); ++i)
-      set_primvar(i, is_read);
+      set_primvar(i);
   }
 
 private:
   void set_geometry(const SurfaceLattice& lattice);
+  void set_uniforms();
   void set_parameters();
   void set_colours();
-  void set_primvar(size_t index, const VarFilter& is_read);
+  void set_primvar(size_t index);
   void set_st(size_t index);
   template <class F> void each_part(size_t index, F&& f) const;
   void fill(size_t index, float* planes);
@@ -91,37 +101,55 @@ private:
   const Primitive& first_;
   const Attributes& attributes_;
   const DiceContext& context_;
+  const ReadVariables& read_;
   slvm::Grid& grid_;
 };
 
 void Dicer::set_geometry(const SurfaceLattice& lattice) {
   grid_.flip_normals = attributes_.flips_normals(first_.state->mirrored);
-  Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN), Ng = triple(grid_, Global::kNg),
-         dPdu = triple(grid_, Global::kdPdu), dPdv = triple(grid_, Global::kdPdv),
-         I = triple(grid_, Global::kI);
+  Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN);
   for (const SurfacePoints& part : parts_) {
     const Primitive& primitive = *part.primitive;
     const Matrix4 m = primitive.state->object_to_camera, inverse = primitive.state->camera_to_object;
     const size_t first = part.first, count = part.at.size();
-    auto each = [&](const std::vector<Vec3>& from, Triple to, auto&& transform) {
-      transform_all(from.data() + first, count, {to.x + first, to.y + first, to.z + first}, transform);
+    auto here = [&](Triple to) { return Triple{to.x + first, to.y + first, to.z + first}; };
+    transform_points(m, lattice.P.data() + first, count, here(P));
+    auto tangent = [&](Global g, const std::vector<Vec3>& from, float width) {
+      if (!read_.has(g)) return;
+      const Matrix4 by = scaled(m, 1 / width);
+      transform_all(from.data() + first, count, here(triple(grid_, g)),
+                    [&](Vec3 d) { return transform_vector(by, d); });
     };
-    each(lattice.P, P, [&](Vec3 p) { return transform_point(m, p); });
-    const Matrix4 u = scaled(m, 1 / (primitive.uv.u1 - primitive.uv.u0)),
-                  v = scaled(m, 1 / (primitive.uv.v1 - primitive.uv.v0));
-    each(lattice.dPdu, dPdu, [&](Vec3 d) { return transform_vector(u, d); });
-    each(lattice.dPdv, dPdv, [&](Vec3 d) { return transform_vector(v, d); });
+    tangent(Global::kdPdu, lattice.dPdu, primitive.uv.u1 - primitive.uv.u0);
+    tangent(Global::kdPdv, lattice.dPdv, primitive.uv.v1 - primitive.uv.v0);
     // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
     // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
     const Matrix4 n = scaled(inverse, grid_.flip_normals == primitive.state->mirrored ? 1.0f : -1.0f);
-    each(lattice.N, N, [&](Vec3 normal) { return normal_by(n, normal); });
+    transform_all(lattice.N.data() + first, count, here(N),
+                  [&](Vec3 normal) { return normal_by(n, normal); });
   }
   const size_t points = grid_.points();
-  for (size_t k = 0; k < points; ++k)
-    I.set(k, context_.camera->incident(P.get(k)));
+  if (read_.has(Global::kI)) {
+    Triple I = triple(grid_, Global::kI);
+    for (size_t k = 0; k < points; ++k)
+      I.set(k, context_.camera->incident(P.get(k)));
+  }
+  if (!read_.has(Global::kNg)) return;
+  Triple Ng = triple(grid_, Global::kNg);
   std::copy_n(N.x, points, Ng.x);
   std::copy_n(N.y, points, Ng.y);
   std::copy_n(N.z, points, Ng.z);
+}
+
+void Dicer::set_uniforms() {
+  auto set = [&](Global g, std::initializer_list<float> value) {
+    grid_.set_uniform(g, {value.begin(), value.size()});
+  };
+  set(Global::kE, {0, 0, 0});
+  set(Global::kncomps, {3});
+  set(Global::ktime, {context_.time});
+  set(Global::kdtime, {context_.dtime});
+  set(Global::kdPdtime, {0, 0, 0});
 }
 
 void Dicer::set_parameters() {
@@ -146,14 +174,6 @@ void Dicer::set_parameters() {
     s[k] = (tc[0] * (1 - a) + tc[2] * a) * (1 - b) + (tc[4] * (1 - a) + tc[6] * a) * b;
     t[k] = (tc[1] * (1 - a) + tc[3] * a) * (1 - b) + (tc[5] * (1 - a) + tc[7] * a) * b;
   }
-  auto set = [&](Global g, std::initializer_list<float> value) {
-    grid_.set_uniform(g, {value.begin(), value.size()});
-  };
-  set(Global::kE, {0, 0, 0});
-  set(Global::kncomps, {3});
-  set(Global::ktime, {context_.time});
-  set(Global::kdtime, {context_.dtime});
-  set(Global::kdPdtime, {0, 0, 0});
 }
 
 void Dicer::set_colours() {
@@ -226,11 +246,12 @@ void Dicer::set_st(size_t index) {
   });
 }
 
-void Dicer::set_primvar(size_t index, const VarFilter& is_read) {
+void Dicer::set_primvar(size_t index) {
   const PatchVar& var = first_.vars[index];
-  if (is_st(var)) return set_st(index);
-  if (Global g = replaced_variable(var); g != Global::kCount) return fill(index, grid_.varying(g));
-  if (is_read && !is_read(var.name)) return;
+  if (is_st(var)) return read_.has(Global::ks) || read_.has(Global::kt) ? set_st(index) : void();
+  if (Global g = replaced_variable(var); g != Global::kCount)
+    return read_.has(g) ? fill(index, grid_.varying(g)) : void();
+  if (read_.of_primitives && !read_.of_primitives(var.name)) return;
   // Constant values cost nothing as uniforms; geometric ones and matrices need the transformation below.
   bool plain = var.type == slvm::Type::kFloat || var.type == slvm::Type::kColor ||
                var.type == slvm::Type::kString || var.type == slvm::Type::kMatrix;
@@ -302,8 +323,8 @@ void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, 
 }
 
 void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
-                 const DiceContext& context, const VarFilter& is_read, slvm::Grid& grid) {
-  Dicer(parts, context, grid).run(lattice, is_read);
+                 const DiceContext& context, const ReadVariables& read, slvm::Grid& grid) {
+  Dicer(parts, context, read, grid).run(lattice);
 }
 
 void renew_geometry(const Camera& camera, slvm::Grid& grid) {

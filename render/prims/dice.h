@@ -5,6 +5,7 @@
 #include "render/prims/split.h"
 #include "slvm/grid.h"
 
+#include <bitset>
 #include <functional>
 #include <span>
 
@@ -33,17 +34,22 @@ struct SurfacePoints {
   size_t first = 0; ///< number of the first of them in the grid
 };
 
-/// Whether anybody reads a primitive variable.
-using VarFilter = std::function<bool(const std::string& name)>;
+/// What somebody reads of a grid; by default everything.
+struct ReadVariables {
+  std::bitset<slvm::kGlobalCount> predefined = std::bitset<slvm::kGlobalCount>().set();
+  std::function<bool(const std::string& name)> of_primitives; ///< empty: all
+  bool has(slvm::Global g) const { return predefined[static_cast<size_t>(g)]; }
+};
 
 /// Fills a grid with the points of `parts`, which together are all points it has; `lattice` is what the
 /// geometry of the primitives gives at each, by their numbers in the grid. du and dv are left to the caller.
 /// The primitives are alike in all that is the same for a grid: texture coordinates, the side their normals
 /// are on, variables of the same names and kinds; constant ones have the same values, unless they replace
 /// predefined ones. "object" is the space of the first one, and attribute() tells of it. Variables that
-/// replace nothing and that nobody reads are left out.
+/// nobody reads are left out: those of primitives, I, tangents, the geometric normal, and u, v, s and t
+/// together.
 void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
-                 const DiceContext& context, const VarFilter& is_read, slvm::Grid& grid);
+                 const DiceContext& context, const ReadVariables& read, slvm::Grid& grid);
 
 /// The predefined variable that a primitive variable replaces, or kCount. "st" is none: it replaces two.
 slvm::Global replaced_variable(const PatchVar& var);

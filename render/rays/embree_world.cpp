@@ -172,6 +172,8 @@ struct Query {
   bool enter(const WorldItem& it, uint32_t index) {
     if (rule.seen && !rule.seen[index]) return false;
     item = index;
+    needs_front = needs_back = false;
+    if (it.solid) return true;
     needs_front = it.one_sided || rule.sides == slvm::HitSides::kFront;
     needs_back = rule.sides == slvm::HitSides::kBack;
     flipped = it.flipped;
@@ -279,7 +281,7 @@ std::optional<RayHit> hit_solid(Query& q, RTCScene faces, const RTCRay& ray) {
   whole.tfar = kInfinity;
   occluded(faces, q.inner, gather_crossing, whole);
   if (all.empty()) return {};
-  for (uint32_t k : q.faces->bounding(q.item, {ray.org_x, ray.org_y, ray.org_z}, all))
+  for (uint32_t k : q.faces->bounding(q.item, q.rule, {ray.org_x, ray.org_y, ray.org_z}, all))
     if (all[k].hit.distance >= ray.tnear && all[k].hit.distance <= ray.tfar && q.keeps(all[k]))
       return all[k].hit;
   return {};

@@ -49,7 +49,7 @@ private:
 /// A part of the world whose faces are all treated alike.
 struct WorldItem {
   Box bounds;             ///< finite, in the space of the rays
-  bool one_sided = false; ///< seen from its front only
+  bool one_sided = false; ///< seen from its front only; of solids each surface has its own sides
   bool flipped = false;   ///< the front of its faces is the other side than (first side) x (last side)
   bool solid = false;     ///< a constructed solid: only hits that bound it count (ItemFaces::bounding)
   bool placed = false;    ///< the faces are in a space of their own:
@@ -81,15 +81,17 @@ public:
   virtual const FaceScene* faces(uint32_t item) = 0;
   /// Whether two faces of an item belong to one surface: a ray through the edge between them meets it once.
   virtual bool same_surface(uint32_t item, uint32_t face, uint32_t other) const = 0;
-  /// Of all crossings of a ray from `origin` on with a solid the numbers of those that bound it, nearest
-  /// first.
-  virtual std::vector<uint32_t> bounding(uint32_t item, Vec3 origin,
+  /// Of all crossings of a ray from `origin` on with a solid the numbers of those that bound it and that the
+  /// ray sees, nearest first.
+  virtual std::vector<uint32_t> bounding(uint32_t item, const struct RayRule&, Vec3 origin,
                                          std::span<const RayCrossing> crossings) const = 0;
 };
 
 /// Which hits count, for the rays of a batch.
 struct RayRule {
   const uint8_t* seen = nullptr; ///< one an item: 0 where rays go through
+  /// For ItemFaces: the same for surfaces that bound solids.
+  const uint8_t* seen_surfaces = nullptr;
   slvm::HitSides sides = slvm::HitSides::kBoth;
 };
 

@@ -2,6 +2,7 @@
 #include "render/rays/ray_geometry.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -52,7 +53,7 @@ public:
       split(traits, primitives.begin(), primitives.end());
     }
     for (auto& [tree, primitives] : solids_)
-      add_solid(tree, std::move(primitives));
+      add_solid(tree, primitives);
   }
 
 private:
@@ -65,8 +66,8 @@ private:
   bool same_as_first(const ObjectCopy& copy, const ObjectCopy& first) const;
   bool can_be_shared(const ObjectCopy& copy) const;
   void split(const RayTraits& traits, List::iterator begin, List::iterator end);
-  void add_solid(const std::shared_ptr<const SolidTree>& tree, List primitives);
-  Item& add(const RayTraits& traits, List primitives);
+  void add_solid(const std::shared_ptr<const SolidTree>& tree, const List& primitives);
+  Item& add(const RayTraits& traits, const List& primitives);
 
   RayGeometry& out_;
   const Scene& scene_;
@@ -116,14 +117,17 @@ void RayGeometry::Gatherer::find_visible() {
 
 void RayGeometry::Gatherer::measure() {
   rates_.resize(scene_.primitives.size());
-  size_t first = 0; // of the primitives of one request
-  for (size_t i = 0; i < scene_.primitives.size(); ++i) {
-    const Primitive& p = scene_.primitives[i];
-    if (!bounds_[i].empty()) rates_[i] = measure_rate(p, camera_, is_displaced_for_rays(p, out_.displacer_));
-    bool last = i + 1 == scene_.primitives.size() || scene_.primitives[i + 1].state != p.state;
-    if (!last) continue;
-    even_out(std::span(rates_).subspan(first, i + 1 - first));
-    first = i + 1;
+  size_t end = 0;
+  for (size_t first = 0; first < scene_.primitives.size(); first = end) {
+    const auto& request = scene_.primitives[first].state;
+    for (end = first + 1; end < scene_.primitives.size() && scene_.primitives[end].state == request;)
+      ++end;
+    for (size_t i = first; i < end; ++i) {
+      const Primitive& p = scene_.primitives[i];
+      if (!bounds_[i].empty())
+        rates_[i] = measure_rate(p, camera_, is_displaced_for_rays(p, out_.displacer_), end - first == 1);
+    }
+    limit_faces(std::span(rates_).subspan(first, end - first));
   }
 }
 
@@ -170,10 +174,8 @@ void RayGeometry::Gatherer::gather_copies() {
     size_t faces = 0;
     for (size_t i = 0; i < copies[0]->count; ++i) {
       FaceRate rate;
-      for (const ObjectCopy* c : copies) {
-        rate.u = std::max(rate.u, rates_[c->first + i].u);
-        rate.v = std::max(rate.v, rates_[c->first + i].v);
-      }
+      for (const ObjectCopy* c : copies)
+        rate = finer_of(rate, rates_[c->first + i]);
       for (const ObjectCopy* c : copies)
         rates_[c->first + i] = rate;
       faces += rate.faces();
@@ -185,7 +187,7 @@ void RayGeometry::Gatherer::gather_copies() {
       std::iota(list.begin(), list.end(), static_cast<uint32_t>(c->first));
       for (uint32_t p : list)
         taken_[p] = 1;
-      Item& item = add(traits_of(scene_.primitives[c->first]), std::move(list));
+      Item& item = add(traits_of(scene_.primitives[c->first]), list);
       item.model = model;
       item.placed = true;
       item.to_camera = c->to_camera;
@@ -207,7 +209,7 @@ void RayGeometry::Gatherer::split(const RayTraits& traits, List::iterator begin,
   if (faces <= out_.settings_.item_faces || end - begin == 1) {
     List list(begin, end);
     std::sort(list.begin(), list.end());
-    add(traits, std::move(list));
+    add(traits, list);
     return;
   }
   Vec3 size = centres.max - centres.min;
@@ -221,25 +223,27 @@ void RayGeometry::Gatherer::split(const RayTraits& traits, List::iterator begin,
   split(traits, middle, end);
 }
 
-RayGeometry::Item& RayGeometry::Gatherer::add(const RayTraits& traits, List primitives) {
+RayGeometry::Item& RayGeometry::Gatherer::add(const RayTraits& traits, const List& primitives) {
   auto item = std::make_unique<Item>();
   item->traits = traits;
   item->model = static_cast<uint32_t>(out_.items_.size());
   uint32_t faces = 0;
+  auto log = [](int n) { return static_cast<uint8_t>(std::countr_zero(static_cast<unsigned>(n))); };
   for (uint32_t p : primitives) {
-    item->first_face.push_back(faces);
-    item->rates.push_back(rates_[p]);
-    item->displaced.push_back(is_displaced_for_rays(scene_.primitives[p], out_.displacer_));
+    const FaceRate& rate = rates_[p];
+    item->parts.push_back(
+        {p, faces, log(rate.u), log(rate.v), is_displaced_for_rays(scene_.primitives[p], out_.displacer_)});
+    item->rates.push_back(rate);
     item->bounds.add(bounds_[p]);
-    faces += static_cast<uint32_t>(rates_[p].faces());
+    faces += static_cast<uint32_t>(rate.faces());
   }
-  item->first_face.push_back(faces);
-  item->primitives = std::move(primitives);
+  item->faces_all = faces;
+  item->part_index.build(item->parts, faces);
   return *out_.items_.emplace_back(std::move(item));
 }
 
-/// A solid is one item, seen by all rays that see any of its surfaces. Those that none sees bound it, too.
-void RayGeometry::Gatherer::add_solid(const std::shared_ptr<const SolidTree>& tree, List primitives) {
+/// A solid is one item. Surfaces that no ray sees bound it, too.
+void RayGeometry::Gatherer::add_solid(const std::shared_ptr<const SolidTree>& tree, const List& primitives) {
   auto solid = std::make_unique<RaySolid>();
   solid->tree = tree;
   solid->bounds.resize(tree->size());
@@ -260,7 +264,7 @@ void RayGeometry::Gatherer::add_solid(const std::shared_ptr<const SolidTree>& tr
   }
   if (!traits) return;
   if (!opaque && traits->shadow == RayOpacity::kOpaque) traits->shadow = RayOpacity::kShader;
-  add(*traits, std::move(primitives)).solid = std::move(solid);
+  add(*traits, primitives).solid = std::move(solid);
 }
 
 RayGeometry::RayGeometry(const Scene& scene, const Camera& camera, Displacer* displacer,

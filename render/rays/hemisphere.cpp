@@ -70,7 +70,7 @@ public:
     const bool interpolates = max_error_ > 0 && whole_;
     for (size_t i = 0; i < asked_; ++i) {
       HemispherePoint p = point_of(query_, i);
-      if (interpolates) p.base = 0; // samples stand for more than their element
+      if (interpolates && p.base > 0) take_pixel(p);
       bool wanted = is_on(query_, i) && is_usable(p) && sampler_.may_shoot();
       if (wanted) mask_[i / 64] |= uint64_t{1} << (i % 64);
       if (is_on(query_, i) && !wanted) store(query_, i, {});
@@ -90,6 +90,9 @@ public:
 private:
   /// Smaller grids are too small to be interpolated in themselves.
   static constexpr size_t kFewestOfLattice = 64;
+  /// Samples that reach so many pixels for each time they are taken are taken again, as long as all their
+  /// rays together are no more than so many.
+  static constexpr float kPixelsAPass = 7, kMostPasses = 4, kRaysOfPasses = 256;
 
   /// Samples are kept for a frame, in which nothing moves: in one space as in another. It must exist, though.
   void check_space() {
@@ -119,21 +122,59 @@ private:
       store_all(points_[k].number, samples[k]);
   }
 
-  RecordRule rule_at(const HemispherePoint& p) const {
+  float pixel_at(Vec3 P) const {
     const Camera& camera = tracer_.camera_;
-    float z = camera.perspective() ? std::max(glm::length(p.P), camera.near_plane()) : 1.0f;
-    float pixel = 1 / camera.pixels_per_unit(z);
+    return 1 / camera.pixels_per_unit(camera.perspective() ? std::max(glm::length(P), camera.near_plane())
+                                                           : 1.0f);
+  }
+
+  /// Makes the element of a point what a micropolygon there covers, as a function of the place alone: points
+  /// that grids share must stay the same.
+  void take_pixel(HemispherePoint& p) const {
+    const auto* primitive = static_cast<const Primitive*>(grid_.user);
+    const float side = pixel_at(p.P) * (primitive ? std::sqrt(primitive->attributes().shading_rate) : 1.0f);
+    const Vec3 view = tracer_.camera_.perspective() ? p.P : Vec3(0, 0, 1);
+    const float length = glm::length(view), slope = length > 0 ? glm::dot(view, p.N) / length : 1.0f;
+    Vec3 x, y;
+    basis_about(p.N, x, y);
+    // Longer where it is seen at an angle, in the direction of that.
+    if (Vec3 along = view - p.N * glm::dot(view, p.N); glm::dot(along, along) > 1e-12f * length * length) {
+      x = glm::normalize(along);
+      y = glm::cross(p.N, x);
+    }
+    p.along_u = x * (side / std::max(std::abs(slope), 0.25f));
+    p.along_v = y * side;
+  }
+
+  RecordRule rule_at(const HemispherePoint& p) const {
+    const float pixel = pixel_at(p.P);
     return {sampler_.call_hash(p), max_error_, tolerance(), pixel, std::max(most_pixels_, 1.0f) * pixel};
   }
 
   HemisphereSample sample_at(const HemispherePoint& p) {
     HemisphereCache::Key key(p.P, p.N, sampler_.call_hash(p));
     if (auto known = tracer_.cache_->find(key)) return *known;
+    const RecordRule rule = rule_at(p);
     HemisphereSample s;
     sampler_.sample({&p, 1}, {&s, 1});
+    s = refined(p, s, std::min(max_error_ * reach_of(s), rule.farthest) / rule.nearest);
     tracer_.cache_->add(key, s);
-    tracer_.records_->add(rule_at(p), p.P, p.N, s);
+    tracer_.records_->add(rule, p.P, p.N, s);
     return s;
+  }
+
+  /// A sample that stands for many pixels is worth more than few rays: noise that is interpolated becomes
+  /// blotches, which no pixel filter takes away.
+  HemisphereSample refined(HemispherePoint p, const HemisphereSample& first, float pixels) {
+    const float most = std::min(kMostPasses, kRaysOfPasses / std::max(query_.samples, 1.0f));
+    const int passes = static_cast<int>(std::clamp(pixels / kPixelsAPass, 1.0f, std::max(most, 1.0f)));
+    if (passes == 1) return first;
+    std::vector<HemisphereSample> samples{first};
+    for (int i = 1; i < passes; ++i) {
+      p.pass = static_cast<uint32_t>(i);
+      sampler_.sample({&p, 1}, {&samples.emplace_back(), 1});
+    }
+    return mean_of(samples);
   }
 
   void fill_between() {

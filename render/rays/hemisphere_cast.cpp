@@ -8,7 +8,7 @@ namespace render {
 /// Where it is enough to know whether there is anything.
 void HemisphereSampler::cast_blocked(std::span<const HemispherePoint> points, Rays& rays) {
   RayGeometry& g = tracer_.geometry();
-  RayRule rule{g.seen(query_.rays.kind, query_.rays.subset), query_.rays.sides};
+  const RayRule rule = g.rule(query_.rays.kind, query_.rays.subset, query_.rays.sides);
   slvm::RayBatch batch;
   for (int c = 0; c < 3; ++c) {
     batch.origin[c] = rays.origin[c].data();

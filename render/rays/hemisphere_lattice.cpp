@@ -1,6 +1,8 @@
 // Lines and cells of a lattice.
 #include "render/rays/hemisphere_lattice.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace render {
@@ -9,6 +11,10 @@ namespace {
 
 /// Lines and cells of fewer steps whose ends agree are interpolated without a look at their middles.
 constexpr int kVerified = 4;
+/// Neighbouring normals with less between them, as a cosine, are of one side of a surface.
+constexpr float kTurnedRound = 0.3f;
+/// Rectangles of no more steps than this are not halved further where normals turn round in them.
+constexpr int kSmall = 4;
 constexpr size_t kValues = HemisphereSample::kValues, kGradients = HemisphereSample::kGradients;
 
 HemisphereSample blend(const HemisphereSample& a, const HemisphereSample& b, float t) {
@@ -57,15 +63,51 @@ private:
     at(k) = s;
   }
 
-  /// How wrong the sample of one point may be at another one.
-  float error(int from, int to) {
-    float turn = std::sqrt(std::max(0.0f, 1 - glm::dot(point(from).N, point(to).N)));
-    return glm::distance(point(from).P, point(to).P) / at(from).distance + turn;
+  float turn(int from, int to) const {
+    return std::sqrt(std::max(0.0f, 1 - glm::dot(point(from).N, point(to).N)));
+  }
+  float way(int from, int to) const { return glm::distance(point(from).P, point(to).P); }
+  /// How wrong the sample of one point, with this reach, may be at another one.
+  float error(int from, float reach, int to) const { return way(from, to) / reach + turn(from, to); }
+  bool turns_round(int a, int b) const {
+    return on(a) && on(b) && glm::dot(point(a).N, point(b).N) < kTurnedRound;
+  }
+
+  /// Reaches of samples that belong together, none much greater than that of another one near it.
+  template <size_t n> std::array<float, n> reaches(const std::array<int, n>& of) {
+    std::array<float, n> own, out;
+    for (size_t i = 0; i < n; ++i)
+      own[i] = reach_of(at(of[i]));
+    for (size_t i = 0; i < n; ++i) {
+      out[i] = own[i];
+      for (size_t k = 0; k < n; ++k)
+        out[i] = std::min(out[i], own[k] + way(of[i], of[k]));
+    }
+    return out;
+  }
+
+  /// Nothing is seen from any of these but what is in the way, alike: how near that is makes no difference.
+  template <size_t n> bool all_blocked(const std::array<int, n>& of) {
+    return std::all_of(of.begin(), of.end(), [&](int k) {
+      if (at(k).value[0] < 1) return false;
+      for (size_t c = 1; c < kGradients; ++c)
+        if (at(k).value[c] != at(of[0]).value[c]) return false;
+      return true;
+    });
   }
 
   /// Values at all points of a line whose ends are known.
   void line(int first, int stride, int steps) {
     if (steps < 2) return;
+    for (int i = 0; i < steps; ++i) {
+      const int before = first + stride * i, behind = before + stride;
+      if (!turns_round(before, behind)) continue;
+      take(before);
+      take(behind);
+      line(first, stride, i);
+      line(behind, stride, steps - i - 1);
+      return;
+    }
     int middle = steps / 2, centre = first + stride * middle;
     bool near = can_interpolate(first, stride, steps);
     if (near && steps < kVerified && agree(at(first), at(first + stride * steps))) {
@@ -99,10 +141,14 @@ private:
 
   bool can_interpolate(int first, int stride, int steps) {
     if (steps > p_.most_steps) return false;
-    int last = first + stride * steps;
-    for (int k = first; k <= last; k += stride)
-      if (!on(k) || (k != first && k != last && !(std::min(error(first, k), error(last, k)) <= p_.max_error)))
-        return false;
+    const std::array<int, 2> ends{first, first + stride * steps};
+    std::array<float, 2> reach = reaches(ends);
+    if (steps >= kVerified && all_blocked(ends)) reach.fill(kInfinity);
+    for (int k = first; k <= ends[1]; k += stride) {
+      if (!on(k)) return false;
+      if (k == first || k == ends[1]) continue;
+      if (!(std::min(error(first, reach[0], k), error(ends[1], reach[1], k)) <= p_.max_error)) return false;
+    }
     return true;
   }
 
@@ -156,6 +202,10 @@ private:
         return;
       }
     }
+    if (std::max(i1 - i0, j1 - j0) <= kSmall && is_crossed({i0, j0, i1, j1})) {
+      carry_into({i0, j0, i1, j1});
+      return;
+    }
     if (i1 - i0 >= j1 - j0) {
       int i = (i0 + i1) / 2;
       line(j0 * p_.nu + i, p_.nu, j1 - j0);
@@ -171,14 +221,17 @@ private:
 
   bool cell_is_near(int i0, int j0, int i1, int j1) {
     if (std::max(i1 - i0, j1 - j0) > p_.most_steps) return false;
-    int corners[4] = {j0 * p_.nu + i0, j0 * p_.nu + i1, j1 * p_.nu + i0, j1 * p_.nu + i1};
+    const std::array<int, 4> corners{j0 * p_.nu + i0, j0 * p_.nu + i1, j1 * p_.nu + i0, j1 * p_.nu + i1};
+    if (!std::all_of(corners.begin(), corners.end(), [&](int k) { return on(k); })) return false;
+    std::array<float, 4> reach = reaches(corners);
+    if (std::min(i1 - i0, j1 - j0) >= kVerified && all_blocked(corners)) reach.fill(kInfinity);
     for (int j = j0; j <= j1; ++j)
       for (int i = i0; i <= i1; ++i) {
         int k = j * p_.nu + i;
         if (!on(k)) return false;
         float least = kInfinity;
-        for (int corner : corners)
-          least = std::min(least, error(corner, k));
+        for (size_t c = 0; c < 4; ++c)
+          least = std::min(least, error(corners[c], reach[c], k));
         if (!(least <= p_.max_error)) return false;
       }
     return true;
@@ -187,6 +240,53 @@ private:
   struct Cell {
     int i0, j0, i1, j1;
   };
+
+  /// Whether normals turn round inside.
+  bool is_crossed(const Cell& c) const {
+    for (int j = c.j0; j <= c.j1; ++j)
+      for (int i = c.i0; i <= c.i1; ++i) {
+        const int k = j * p_.nu + i;
+        if ((i < c.i1 && turns_round(k, k + 1)) || (j < c.j1 && turns_round(k, k + p_.nu))) return true;
+      }
+    return false;
+  }
+
+  /// Points inside take the mean of what is on the edges, by how near that is; points that nothing is near to
+  /// have samples of their own.
+  void carry_into(const Cell& c) {
+    std::vector<int> edge;
+    for (int j = c.j0; j <= c.j1; ++j)
+      for (int i = c.i0; i <= c.i1; ++i)
+        if ((i == c.i0 || i == c.i1 || j == c.j0 || j == c.j1) && on(j * p_.nu + i))
+          edge.push_back(j * p_.nu + i);
+    for (int j = c.j0 + 1; j < c.j1; ++j)
+      for (int i = c.i0 + 1; i < c.i1; ++i) {
+        const int k = j * p_.nu + i;
+        if (known_[static_cast<size_t>(k)] || !on(k)) continue;
+        HemisphereSample sum;
+        float weights = 0, nearness = 0;
+        for (int from : edge) {
+          const HemisphereSample& s = at(from);
+          const float e = error(from, reach_of(s), k);
+          if (!(e <= p_.max_error) || turns_round(from, k)) continue;
+          const float weight = 1 / std::max(e, 1e-3f);
+          const HemisphereSample here =
+              carried(s, point(k).P - point(from).P, glm::cross(point(from).N, point(k).N));
+          for (size_t v = 0; v < kValues; ++v)
+            sum.value[v] += weight * here.value[v];
+          nearness += weight / s.distance;
+          weights += weight;
+        }
+        if (!(weights > 0)) {
+          take(k);
+          continue;
+        }
+        for (float& v : sum.value)
+          v /= weights;
+        sum.distance = weights / nearness;
+        set(k, sum);
+      }
+  }
 
   /// Whether the edges are what their ends foretell. Where something begins or ends on an edge, it does so
   /// inside, too, at places that no blend of the edges finds.

@@ -1,6 +1,7 @@
 // Rings and sectors.
 #include "render/rays/hemisphere_pattern.h"
 
+#include <bit>
 #include <cmath>
 
 namespace render {
@@ -28,6 +29,12 @@ int count_of(float samples) {
 
 } // namespace
 
+bool HemispherePattern::is_net() const {
+  for (int n : {rings, sectors, ring_block, sector_block})
+    if (!std::has_single_bit(static_cast<unsigned>(n))) return false;
+  return true;
+}
+
 HemispherePattern make_pattern(float samples, float fewest) {
   int all = count_of(samples), blocks = fewest > 0 ? std::min(count_of(fewest), all) : all;
   HemispherePattern p;
@@ -38,19 +45,6 @@ HemispherePattern make_pattern(float samples, float fewest) {
   p.rings = rings * p.ring_block;
   p.sectors = sectors * p.sector_block;
   return p;
-}
-
-HemisphereDirection direction_in(const HemispherePattern& p, int ring, int sector, float x, float y,
-                                 float cone, bool cosine_weighted) {
-  float r = (static_cast<float>(ring) + x) / static_cast<float>(p.rings);
-  float azimuth = 2 * kPi * (static_cast<float>(sector) + y) / static_cast<float>(p.sectors);
-  float limit = std::cos(std::clamp(cone, 0.0f, kPi));
-  if (!cosine_weighted) return {1 - r * (1 - limit), azimuth};
-  // The part of all directions within an angle is 1 - cos^2 in front of the horizon; behind it cos^2 is
-  // added.
-  float whole = limit >= 0 ? 1 - limit * limit : 1 + limit * limit;
-  float part = r * whole;
-  return {part <= 1 ? std::sqrt(1 - part) : -std::sqrt(part - 1), azimuth};
 }
 
 void basis_about(Vec3 n, Vec3& x, Vec3& y) {

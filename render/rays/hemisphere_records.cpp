@@ -18,16 +18,6 @@ float error_of(Vec3 from, Vec3 normal, float reach, Vec3 P, Vec3 N) {
   return glm::distance(from, P) / reach + std::sqrt(std::max(0.0f, 1 - glm::dot(normal, N)));
 }
 
-/// What a sample is at another point, by its gradients; these are estimates and may not lead far.
-void carry(const HemisphereSample& s, Vec3 way, Vec3 turn, HemisphereSample& out) {
-  out = s;
-  for (size_t c = 0; c < HemisphereSample::kGradients; ++c) {
-    float most = std::max(s.value[c], 0.05f), by = glm::dot(s.move[c], way) + glm::dot(s.turn[c], turn);
-    out.value[c] = std::max(0.0f, s.value[c] + std::clamp(by, -most, most));
-  }
-  out.value[0] = std::min(out.value[0], 1.0f);
-}
-
 bool agree(const HemisphereSample& a, const HemisphereSample& b, float tolerance) {
   for (size_t c = 0; c < HemisphereSample::kGradients; ++c) {
     float whole = c == 0 ? 1.0f : std::max({a.value[c], b.value[c], 0.1f});
@@ -38,15 +28,6 @@ bool agree(const HemisphereSample& a, const HemisphereSample& b, float tolerance
 
 int level_of(float reach) {
   return static_cast<int>(std::ceil(std::log2(std::max(reach, 1e-12f))));
-}
-
-/// Not larger than where values change as much as they are.
-float reach_of(const HemisphereSample& s) {
-  float reach = s.distance;
-  for (size_t c = 0; c < HemisphereSample::kGradients; ++c)
-    if (float slope = glm::length(s.move[c]); slope > 0)
-      reach = std::min(reach, std::max(s.value[c], c == 0 ? 0.2f : 0.05f) / slope);
-  return reach;
 }
 
 } // namespace
@@ -77,14 +58,14 @@ template <class F> void HemisphereRecords::near(const RecordRule& rule, Vec3 P, 
 }
 
 std::optional<HemisphereSample> HemisphereRecords::find(const RecordRule& rule, Vec3 P, Vec3 N) {
-  HemisphereSample sum, here;
+  HemisphereSample sum;
   float weights = 0, nearness = 0;
   near(rule, P, [&](const Record& r) {
     float reach = r.reach.load(std::memory_order_relaxed);
     float error = error_of(r.P, r.N, reach, P, N);
     if (!(error < rule.max_error) || glm::dot(P - r.P, N + r.N) < -kInFront * reach) return;
     float weight = 1 / std::max(error, 1e-3f) - 1 / rule.max_error; // falls to 0 at the edge
-    carry(r.sample, P - r.P, glm::cross(r.N, N), here);
+    const HemisphereSample here = carried(r.sample, P - r.P, glm::cross(r.N, N));
     for (size_t c = 0; c < HemisphereSample::kValues; ++c)
       sum.value[c] += weight * here.value[c];
     nearness += weight / r.sample.distance;
@@ -104,8 +85,7 @@ void HemisphereRecords::add(const RecordRule& rule, Vec3 P, Vec3 N, const Hemisp
   near(rule, P, [&](Record& r) {
     float other = r.reach.load(std::memory_order_relaxed), way = glm::distance(r.P, P);
     if (way > other * rule.max_error) return;
-    HemisphereSample foretold;
-    carry(r.sample, P - r.P, glm::cross(r.N, N), foretold);
+    const HemisphereSample foretold = carried(r.sample, P - r.P, glm::cross(r.N, N));
     bool applies = error_of(r.P, r.N, other, P, N) < rule.max_error;
     if (applies && !agree(foretold, sample, rule.tolerance)) other *= kShrink;
     other = std::min(other, reach + way);

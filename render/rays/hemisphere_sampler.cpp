@@ -36,7 +36,8 @@ uint64_t mix(uint64_t a, std::string_view text) {
 HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState& state,
                                      const slvm::HemisphereQuery& query, bool interpolated)
     : tracer_(tracer), state_(state), query_(query), shooter_(tracer.shooter(state, query.rays)),
-      pattern_(make_pattern(query.samples, query.min_samples)), interpolated_(interpolated) {
+      pattern_(make_pattern(query.samples, query.min_samples)), interpolated_(interpolated),
+      aim_(pattern_, query.cosine) {
   wants_light_ = query.radiance[0] && query.rays.shades;
   wants_map_ = !query.environment_map.empty() && (query.radiance[0] || query.environment_colour[0]);
   if (wants_map_ && !query.environment_space.empty())
@@ -60,7 +61,7 @@ HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState
 
 uint64_t HemisphereSampler::call_hash(const HemispherePoint& p) const {
   uint64_t h = mix(mix(mix(mix(call_, p.cone), p.max_distance), p.bias), p.base);
-  if (p.base != 0)
+  if (p.base != 0 && !interpolated_) // else the element is a function of the place
     for (Vec3 side : {p.along_u, p.along_v})
       for (int c = 0; c < 3; ++c)
         h = mix(h, side[c]);
@@ -72,59 +73,7 @@ uint64_t HemisphereSampler::seed_of(const HemispherePoint& p) const {
   return HemisphereCache::Key(p.P, p.N, mix(query_.rays.seed, uint64_t{1})).hash();
 }
 
-Vec3 HemisphereSampler::aim(const HemispherePoint& p, uint64_t seed, int cell, Vec3& origin) const {
-  uint64_t h = mix(seed, uint64_t(cell));
-  HemisphereDirection d = direction_in(pattern_, cell / pattern_.sectors, cell % pattern_.sectors,
-                                       upper_unit(h), lower_unit(h), p.cone, query_.cosine);
-  Vec3 x, y;
-  basis_about(p.N, x, y);
-  float sine = std::sqrt(std::max(0.0f, 1 - d.cosine * d.cosine));
-  origin = p.P;
-  if (p.base > 0) {
-    uint64_t place = mix(h, uint64_t{2});
-    origin += p.base * ((upper_unit(place) - 0.5f) * p.along_u + (lower_unit(place) - 0.5f) * p.along_v);
-  }
-  return x * (sine * std::cos(d.azimuth)) + y * (sine * std::sin(d.azimuth)) + p.N * d.cosine;
-}
-
-int HemisphereSampler::chosen_cell(int block, uint64_t seed) const {
-  if (pattern_.blocks() == pattern_.cells()) return block;
-  int across = pattern_.sectors / pattern_.sector_block;
-  uint64_t h = mix(seed, uint64_t(block) + (uint64_t{1} << 32));
-  int in_ring = static_cast<int>(upper_unit(h) * static_cast<float>(pattern_.ring_block)),
-      in_sector = static_cast<int>(lower_unit(h) * static_cast<float>(pattern_.sector_block));
-  return (block / across * pattern_.ring_block + in_ring) * pattern_.sectors +
-         block % across * pattern_.sector_block + in_sector;
-}
-
 namespace {
-
-/// `spread`: 0 where nobody wants to know how wide rays are.
-template <class RaysT, class CellT>
-void push_ray(RaysT& rays, const HemispherePoint& p, size_t index, Vec3 origin, Vec3 direction, float spread,
-              int sample, CellT* cell) {
-  for (int c = 0; c < 3; ++c) {
-    rays.origin[c].push_back(origin[c]);
-    rays.direction[c].push_back(direction[c]);
-  }
-  if (spread > 0) {
-    Vec3 x, y;
-    basis_about(direction, x, y);
-    for (int c = 0; c < 3; ++c) {
-      rays.direction_du[c].push_back(x[c] * spread);
-      rays.direction_dv[c].push_back(y[c] * spread);
-      rays.still[c].push_back(0);
-    }
-  }
-  rays.max_distance.push_back(p.max_distance);
-  rays.bias.push_back(p.bias);
-  rays.point.push_back(p.number);
-  rays.sample.push_back(static_cast<uint32_t>(sample));
-  rays.cell.push_back(cell);
-  rays.index.push_back(index);
-  cell->direction = direction;
-  cell->shot = true;
-}
 
 /// What a ray stands for, as an angle.
 float spread_of(const HemispherePattern& p) {
@@ -133,18 +82,49 @@ float spread_of(const HemispherePattern& p) {
 
 } // namespace
 
-void HemisphereSampler::first_rays(std::span<const HemispherePoint> points, Rays& rays) {
-  const float spread = needs_width() ? spread_of(pattern_) : 0.0f;
-  chosen_.clear();
-  for (size_t i = 0; i < points.size(); ++i) {
-    uint64_t seed = seed_of(points[i]);
-    for (int b = 0; b < pattern_.blocks(); ++b) {
-      int cell = chosen_cell(b, seed);
-      chosen_.push_back(cell);
-      Vec3 origin, direction = aim(points[i], seed, cell, origin);
-      push_ray(rays, points[i], i, origin, direction, spread, cell,
-               &cells_[i * static_cast<size_t>(pattern_.cells()) + static_cast<size_t>(cell)]);
+/// Appends the rays that were aimed last, of the point with this number among those being sampled.
+void HemisphereSampler::push_rays(Rays& rays, const HemispherePoint& p, size_t index) {
+  const size_t count = aim_.size(), before = rays.size();
+  auto append = [](std::vector<float>& to, const std::vector<float>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (size_t c = 0; c < 3; ++c) {
+    append(rays.origin[c], aim_.origin[c]);
+    append(rays.direction[c], aim_.direction[c]);
+  }
+  rays.max_distance.resize(before + count, p.max_distance);
+  rays.bias.resize(before + count, p.bias);
+  rays.point.resize(before + count, p.number);
+  rays.index.resize(before + count, index);
+  Cell* cells = &cells_[index * static_cast<size_t>(pattern_.cells())];
+  for (size_t i = 0; i < count; ++i) {
+    Cell& cell = cells[aim_.cell[i]];
+    cell.direction = {aim_.direction[0][i], aim_.direction[1][i], aim_.direction[2][i]};
+    cell.shot = true;
+    rays.cell.push_back(&cell);
+    rays.sample.push_back(static_cast<uint32_t>(aim_.cell[i]));
+  }
+  if (!needs_width()) return;
+  const float spread = spread_of(pattern_);
+  for (size_t i = before; i < before + count; ++i) {
+    Vec3 x, y;
+    basis_about(rays.cell[i]->direction, x, y);
+    for (int c = 0; c < 3; ++c) {
+      rays.direction_du[c].push_back(x[c] * spread);
+      rays.direction_dv[c].push_back(y[c] * spread);
+      rays.still[c].push_back(0);
     }
+  }
+}
+
+void HemisphereSampler::first_rays(std::span<const HemispherePoint> points, Rays& rays) {
+  const auto blocks = static_cast<size_t>(pattern_.blocks());
+  chosen_.resize(points.size() * blocks);
+  for (size_t i = 0; i < points.size(); ++i) {
+    aim_.first(points[i], seed_of(points[i]));
+    for (int cell : aim_.cell)
+      chosen_[i * blocks + static_cast<size_t>(pattern_.block_of(cell))] = cell;
+    push_rays(rays, points[i], i);
   }
 }
 
@@ -162,31 +142,22 @@ bool HemisphereSampler::differs(const Cell& a, const Cell& b) const {
 
 /// The cells left in blocks that differ from one of the four beside them.
 void HemisphereSampler::more_rays(std::span<const HemispherePoint> points, Rays& rays) {
-  const float spread = needs_width() ? spread_of(pattern_) : 0.0f;
   int across = pattern_.sectors / pattern_.sector_block, down = pattern_.rings / pattern_.ring_block;
   for (size_t i = 0; i < points.size(); ++i) {
-    uint64_t seed = seed_of(points[i]);
     Cell* cells = &cells_[i * static_cast<size_t>(pattern_.cells())];
     const int* chosen = &chosen_[i * static_cast<size_t>(pattern_.blocks())];
-    std::vector<int> wanted;
+    std::vector<uint8_t> wanted(static_cast<size_t>(pattern_.blocks()));
     for (int b = 0; b < pattern_.blocks(); ++b) {
       int row = b / across, column = b % across;
       const Cell& own = cells[chosen[b]];
       auto other = [&](int r, int c) {
         return r >= 0 && r < down && differs(own, cells[chosen[r * across + (c + across) % across]]);
       };
-      if (other(row - 1, column) || other(row + 1, column) || other(row, column - 1) ||
-          other(row, column + 1))
-        wanted.push_back(b);
+      wanted[static_cast<size_t>(b)] = other(row - 1, column) || other(row + 1, column) ||
+                                       other(row, column - 1) || other(row, column + 1);
     }
-    for (int b : wanted)
-      for (int k = 0; k < pattern_.ring_block * pattern_.sector_block; ++k) {
-        int cell = (b / across * pattern_.ring_block + k / pattern_.sector_block) * pattern_.sectors +
-                   b % across * pattern_.sector_block + k % pattern_.sector_block;
-        if (cells[cell].shot) continue;
-        Vec3 origin, direction = aim(points[i], seed, cell, origin);
-        push_ray(rays, points[i], i, origin, direction, spread, cell, &cells[cell]);
-      }
+    aim_.others(points[i], seed_of(points[i]), wanted, {chosen, wanted.size()});
+    push_rays(rays, points[i], i);
   }
 }
 
@@ -303,14 +274,15 @@ HemisphereSampler::~HemisphereSampler() = default;
 void HemisphereSampler::sample(std::span<const HemispherePoint> points, std::span<HemisphereSample> out) {
   auto cells = static_cast<size_t>(pattern_.cells());
   size_t at_a_time = std::max<size_t>(1, kRaysAtATime / cells);
-  tracer_.hemispheres_ += points.size();
+  for (const HemispherePoint& p : points)
+    tracer_.hemispheres_ += p.pass == 0;
   if (!rays_) rays_ = std::make_unique<Rays>();
   Rays& rays = *rays_;
   for (size_t first = 0; first < points.size();) {
     auto part = points.subspan(first, std::min(at_a_time, points.size() - first));
     if (interpolated_) { // a sample belongs to its place, whichever grid asks
       part = points.subspan(first, 1);
-      shooter_.seed = seed_of(part[0]);
+      shooter_.seed = mix(seed_of(part[0]), uint64_t{part[0].pass});
       shooter_.one_point = true;
     }
     cells_.assign(part.size() * cells, {});

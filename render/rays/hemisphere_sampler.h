@@ -1,8 +1,7 @@
 // Shoots the rays of hemisphere queries and sums them up.
 #pragma once
 
-#include "render/rays/hemisphere_pattern.h"
-#include "render/rays/hemisphere_sample.h"
+#include "render/rays/hemisphere_aim.h"
 #include "render/rays/shooter.h"
 
 #include <memory>
@@ -35,7 +34,7 @@ private:
   };
   struct Rays;
 
-  Vec3 aim(const HemispherePoint& point, uint64_t seed, int cell, Vec3& origin) const;
+  void push_rays(Rays& rays, const HemispherePoint& point, size_t index);
   void first_rays(std::span<const HemispherePoint> points, Rays& rays);
   void more_rays(std::span<const HemispherePoint> points, Rays& rays);
   void cast(std::span<const HemispherePoint> points, Rays& rays);
@@ -46,7 +45,6 @@ private:
   void gradients(const HemispherePoint& point, const Cell* cells, HemisphereSample& out) const;
   bool differs(const Cell& a, const Cell& b) const;
   float blocked_by(const HemispherePoint& point, float distance) const;
-  int chosen_cell(int block, uint64_t seed) const;
   uint64_t seed_of(const HemispherePoint& point) const;
 
   RayTracer& tracer_;
@@ -62,8 +60,9 @@ private:
   /// Whether rays bring anything that is filtered.
   bool needs_width() const { return wants_light_ || wants_map_; }
 
-  std::vector<Cell> cells_;    ///< of all points being sampled
-  std::vector<int> chosen_;    ///< of each block of each point: the cell that is shot first
+  std::vector<Cell> cells_; ///< of all points being sampled
+  std::vector<int> chosen_; ///< of each block of each point: the cell that is shot first
+  HemisphereAim aim_;
   std::unique_ptr<Rays> rays_; ///< with its memory
   std::string problem_;
 };

@@ -42,16 +42,36 @@ SurfaceSpot in_camera(const Matrix4& to_camera, const SurfaceLattice& lattice, s
           transform_vector(to_camera, lattice.dPdv[k])};
 }
 
-/// Whether a point of the surface is the one below or above where the ray met the faces: it may be off them,
-/// as they are off the surface, but not beside.
-bool is_near(const PrimitiveState& state, const SurfaceLattice& lattice, size_t k, Vec3 target,
-             float distance) {
-  const float most = kNearEnough * distance;
-  Vec3 off = transform_point(state.camera_to_object, target) - lattice.P[k], N = lattice.N[k];
-  float along = glm::dot(off, N), length = glm::dot(N, N);
-  Vec3 beside = transform_vector(state.object_to_camera, length > 0 ? off - N * (along / length) : off);
-  return glm::dot(beside, beside) <= most * most;
-}
+/// Which points of a surface are the ones below or above where rays met its faces: these may be off them, as
+/// faces are off the surface, but not beside.
+class NearnessTest {
+public:
+  explicit NearnessTest(const PrimitiveState& state) : m_(state.camera_to_object) {
+    // The greatest factor by which lengths grow towards camera space is no more than this (Gershgorin, of the
+    // squares); of rigid and even scalings it is it.
+    const Matrix4& to_camera = state.object_to_camera;
+    for (int i = 0; i < 3; ++i) {
+      float row = 0;
+      for (int j = 0; j < 3; ++j) {
+        float sum = 0;
+        for (int c = 0; c < 3; ++c)
+          sum += to_camera(i, c) * to_camera(j, c);
+        row += std::abs(sum);
+      }
+      squared_growth_ = std::max(squared_growth_, row);
+    }
+  }
+  bool passes(const SurfaceLattice& lattice, size_t k, Vec3 target, float distance) const {
+    const Vec3 off = transform_point(m_, target) - lattice.P[k], N = lattice.N[k];
+    const float along = glm::dot(off, N), length = glm::dot(N, N), most = kNearEnough * distance;
+    // |off|^2 without what lies along N.
+    return (glm::dot(off, off) * length - along * along) * squared_growth_ <= most * most * length;
+  }
+
+private:
+  const Matrix4& m_;
+  float squared_growth_ = 0;
+};
 
 void copy_point(const SurfaceLattice& from, size_t i, SurfaceLattice& to, size_t k) {
   to.P[k] = from.P[i];
@@ -109,31 +129,37 @@ UvPoints HitGrid::points(const Run& run, size_t row) const {
   return {std::span(u_).subspan(first, run.count), std::span(v_).subspan(first, run.count), true};
 }
 
-void HitGrid::find_spots(const Run& run, const HitRays& rays, std::span<const HitRay> hits) {
-  const PrimitiveState& state = *run.primitive->state;
-  run.primitive->geometry->evaluate(points(run, 0), scratch_);
-  open_.clear();
-  for (size_t i = 0; i < run.count; ++i) {
-    size_t k = run.first + i;
-    copy_point(scratch_, i, lattice_, k);
-    // Where faces are displaced they tell nothing about the surface below.
-    if (!run.displaced && !is_near(state, lattice_, k, rays.target(hits[k]), hits[k].distance))
-      open_.push_back(static_cast<uint32_t>(k));
+/// Appends a row to the lattice: of hits or of their neighbours.
+void HitGrid::evaluate(size_t row) {
+  for (const Run& run : runs_) {
+    if (row == 0 && runs_.size() == 1) return run.primitive->geometry->evaluate(points(run, row), lattice_);
+    run.primitive->geometry->evaluate(points(run, row), scratch_);
+    lattice_.append(scratch_);
   }
-  if (!open_.empty()) settle(run, rays, hits);
+}
+
+/// Lists the hits of a run that are not where their rays are.
+void HitGrid::find_open(const Run& run, std::span<const HitRay> hits) {
+  open_.clear();
+  if (run.displaced) return; // displaced faces tell nothing about the surface below
+  const NearnessTest is_near(*run.primitive->state);
+  for (size_t k = run.first; k < run.first + run.count; ++k)
+    if (!is_near.passes(lattice_, k, targets_[k], hits[k].distance))
+      open_.push_back(static_cast<uint32_t>(k));
 }
 
 /// Takes `open_` hits to the points of the surface that lie nearest to where their rays met the faces, which
 /// are a little off the surface, and their parameters off its.
-void HitGrid::settle(const Run& run, const HitRays& rays, std::span<const HitRay> hits) {
+void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
   constexpr int kRounds = 6;
+  const NearnessTest is_near(*run.primitive->state);
   const Matrix4& m = run.primitive->state->object_to_camera;
   for (int round = 0; round < kRounds && !open_.empty(); ++round) {
     next_u_.clear();
     next_v_.clear();
     std::erase_if(open_, [&](uint32_t k) {
       SurfaceSpot spot = in_camera(m, lattice_, k);
-      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, rays.target(hits[k]) - spot.P);
+      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, targets_[k] - spot.P);
       float longest = std::max(std::abs(step.x), std::abs(step.y));
       if (!(longest < kInfinity)) return true;
       if (longest > 0.5f) step *= 0.5f / longest;
@@ -148,24 +174,16 @@ void HitGrid::settle(const Run& run, const HitRays& rays, std::span<const HitRay
     size_t kept = 0;
     for (size_t i = 0; i < open_.size(); ++i) {
       uint32_t k = open_[i];
-      Vec3 target = rays.target(hits[k]);
+      const Vec3 target = targets_[k];
       if (glm::distance(transform_point(m, scratch_.P[i]), target) >
           glm::distance(transform_point(m, lattice_.P[k]), target))
         continue;
       u_[k] = next_u_[i];
       v_[k] = next_v_[i];
       copy_point(scratch_, i, lattice_, k);
-      if (!is_near(*run.primitive->state, lattice_, k, target, hits[k].distance)) open_[kept++] = k;
+      if (!is_near.passes(lattice_, k, target, hits[k].distance)) open_[kept++] = k;
     }
     open_.resize(kept);
-  }
-}
-
-void HitGrid::evaluate_beside(const Run& run) {
-  for (size_t row : {1, 2}) {
-    run.primitive->geometry->evaluate(points(run, row), scratch_);
-    for (size_t i = 0; i < run.count; ++i)
-      copy_point(scratch_, i, lattice_, row * hits_ + run.first + i);
   }
 }
 
@@ -200,28 +218,42 @@ void HitGrid::take_footprints(const HitRays& rays, std::span<const HitRay> hits)
 }
 
 void HitGrid::dice(const Scene& scene, const HitRays& rays, std::span<const HitRay> hits, bool beside,
-                   const DiceContext& context, const VarFilter& is_read) {
+                   const DiceContext& context, const ReadVariables& read) {
   const size_t n = hits.size(), rows = beside ? 3 : 1;
   find_runs(scene, hits);
   u_.resize(n);
   v_.resize(n);
-  for (size_t i = 0; i < n; ++i) {
+  origins_.resize(rows * n);
+  targets_.resize(n);
+  for (size_t i = 0; i < n; ++i) { // hits are in another order than their rays: these are read once
     u_[i] = hits[i].place.u;
     v_[i] = hits[i].place.v;
+    origins_[i] = rays.origin(hits[i]);
+    targets_[i] = origins_[i] + rays.direction(hits[i]) * hits[i].distance;
   }
   hits_ = n;
-  lattice_.resize(rows * n);
-  for (const Run& run : runs_)
-    find_spots(run, rays, hits);
-  grid.reset(static_cast<int>(n), static_cast<int>(rows));
-  if (beside) take_footprints(rays, hits);
-  parts_.clear();
+  lattice_.resize(0);
+  evaluate(0);
   for (const Run& run : runs_) {
-    if (beside) evaluate_beside(run);
+    find_open(run, hits);
+    if (!open_.empty()) settle(run, hits);
+  }
+  grid.reset(static_cast<int>(n), static_cast<int>(rows));
+  if (beside) {
+    take_footprints(rays, hits);
+    evaluate(1);
+    evaluate(2);
+  }
+  parts_.clear();
+  for (const Run& run : runs_)
     for (size_t row = 0; row < rows; ++row)
       parts_.push_back({run.primitive, points(run, row), row * n + run.first});
-  }
-  dice_points(parts_, lattice_, context, is_read, grid);
+  ReadVariables diced = read;
+  diced.predefined.reset(static_cast<size_t>(Global::kI)); // rays have their own
+  if (beside) // steps are differences of these, which primitives may bring along
+    for (Global g : {Global::ku, Global::kv})
+      diced.predefined.set(static_cast<size_t>(g));
+  dice_points(parts_, lattice_, context, diced, grid);
   // A primitive that was moved in time is this grid's only.
   grid.user = &scene.primitives[hits[0].place.primitive];
   grid.lattice = slvm::Lattice::kHits;
@@ -255,15 +287,21 @@ void HitGrid::stretch(size_t n) {
 }
 
 void HitGrid::set_steps(size_t n) {
+  if (!grid.derivatives) {
+    for (Global g : {Global::kdu, Global::kdv})
+      grid.set_uniform(g, {&kLeastStep, 1});
+    return;
+  }
   for (bool along_u : {true, false}) {
-    const slvm::Planes& from = grid.variable(along_u ? Global::ku : Global::kv);
+    const float* from = grid.variable(along_u ? Global::ku : Global::kv).data;
     float* to = grid.varying(along_u ? Global::kdu : Global::kdv);
-    size_t beside = along_u ? n : 2 * n;
-    for (size_t k = 0; k < grid.points(); ++k) {
-      size_t i = k % n;
-      float step = grid.derivatives ? from.data[beside + i] - from.data[i] : kLeastStep;
-      to[k] = step != 0 ? step : kLeastStep;
+    const float* beside = from + (along_u ? n : 2 * n);
+    for (size_t i = 0; i < n; ++i) {
+      const float step = beside[i] - from[i];
+      to[i] = step != 0 ? step : kLeastStep;
     }
+    for (size_t row : {1, 2})
+      std::copy_n(to, n, to + row * n);
   }
 }
 
@@ -279,9 +317,6 @@ void HitGrid::aim() {
 /// I, E and weights. A neighbour has the origin of the ray that would hit it.
 void HitGrid::set_rays(const HitRays& rays, std::span<const HitRay> hits) {
   size_t n = hits.size();
-  origins_.resize(grid.points());
-  for (size_t i = 0; i < n; ++i)
-    origins_[i] = rays.origin(hits[i]);
   for (size_t i = 0; i < n && grid.derivatives; ++i) {
     const HitRay& hit = hits[i];
     float ux = footprint_[0][i], vx = footprint_[1][i], uy = footprint_[2][i], vy = footprint_[3][i];
@@ -322,7 +357,7 @@ void HitGrid::after_displacement(bool moved) {
   size_t n = grid.samples(), pitch = grid.pitch();
   float *dPdu = grid.varying(Global::kdPdu), *dPdv = grid.varying(Global::kdPdv),
         *Ng = grid.varying(Global::kNg);
-  const slvm::Planes &du = grid.variable(Global::kdu), &dv = grid.variable(Global::kdv);
+  const slvm::Planes du = grid.variable(Global::kdu), dv = grid.variable(Global::kdv);
   float sign = grid.flip_normals ? -1.0f : 1.0f;
   aim();
   for (size_t k = 0; k < grid.points() && grid.derivatives; ++k) {

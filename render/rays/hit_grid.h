@@ -29,7 +29,6 @@ struct HitRays {
   bool wide() const { return batch.origin_du[0] && batch.direction_du[0]; }
   Vec3 origin(const HitRay& h) const { return at(batch.origin, h); }
   Vec3 direction(const HitRay& h) const { return at(batch.direction, h); }
-  Vec3 target(const HitRay& h) const { return origin(h) + direction(h) * h.distance; }
   static Vec3 at(const float* const (&planes)[3], const HitRay& h) {
     return {planes[0][h.ray], planes[1][h.ray], planes[2][h.ray]};
   }
@@ -52,10 +51,9 @@ public:
   slvm::Grid grid{1, 1};
 
   /// Fills the grid with hits whose primitives can be diced together (dice_points); those of one primitive
-  /// follow each other, so that its geometry is asked once for all. `beside`: with neighbours. `is_read`: the
-  /// primitive variables somebody wants; empty: all.
+  /// follow each other, so that its geometry is asked once for all. `beside`: with neighbours.
   void dice(const Scene& scene, const HitRays& rays, std::span<const HitRay> hits, bool beside,
-            const DiceContext& context, const VarFilter& is_read = {});
+            const DiceContext& context, const ReadVariables& read = {});
   /// To be called around a displacement shader. Afterwards points are back where they were if rays do not see
   /// displacements: the shader then has changed N only.
   void before_displacement();
@@ -69,9 +67,9 @@ private:
     bool displaced;
   };
   void find_runs(const Scene& scene, std::span<const HitRay> hits);
-  void find_spots(const Run& run, const HitRays& rays, std::span<const HitRay> hits);
-  void settle(const Run& run, const HitRays& rays, std::span<const HitRay> hits);
-  void evaluate_beside(const Run& run);
+  void evaluate(size_t row);
+  void find_open(const Run& run, std::span<const HitRay> hits);
+  void settle(const Run& run, std::span<const HitRay> hits);
   UvPoints points(const Run& run, size_t row) const;
   void take_footprints(const HitRays& rays, std::span<const HitRay> hits);
   void stretch(size_t hits);
@@ -90,6 +88,7 @@ private:
   std::vector<float> u_stretch_, v_stretch_; ///< of a hit: the wanted step by the one that is evaluated
   std::vector<float> footprint_[4], weight_[3];
   std::vector<Vec3> origins_; ///< of all points
+  std::vector<Vec3> targets_; ///< where the rays of the hits met the faces
   std::vector<float> saved_;
   SurfaceLattice scratch_;
 };

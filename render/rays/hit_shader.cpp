@@ -16,7 +16,7 @@ namespace {
 using slvm::Global;
 using From = slvm::RayOutput::From;
 
-/// Hits shaded at a time.
+/// Hits shaded at a time, about.
 constexpr size_t kHitsAGrid = 256;
 
 /// The services of a renderer, without rays.
@@ -114,16 +114,22 @@ bool fits(const slvm::RayOutput& out, slvm::Type type, uint32_t elements) {
 void store(const slvm::RayOutput& out, const slvm::Planes* from, std::span<const HitRay> hits,
            std::span<const uint32_t> lanes) {
   if (!from || !from->data || !fits(out, from->type, from->elements)) return;
-  size_t planes = static_cast<size_t>(slvm::components(out.type)) * (out.elements ? out.elements : 1);
-  auto one = [&](size_t i) {
-    for (size_t c = 0; c < planes; ++c)
-      out.data[c * out.pitch + hits[i].slot] = from->get(c, i);
-    if (out.found) out.found[hits[i].slot] = 1;
+  const size_t planes = static_cast<size_t>(slvm::components(out.type)) * (out.elements ? out.elements : 1);
+  auto each = [&](auto&& f) {
+    if (lanes.empty())
+      for (size_t i = 0; i < hits.size(); ++i)
+        f(i);
+    else
+      for (uint32_t i : lanes)
+        f(i);
   };
-  for (uint32_t i : lanes)
-    one(i);
-  for (size_t i = 0; i < hits.size() && lanes.empty(); ++i)
-    one(i);
+  for (size_t c = 0; c < planes; ++c) {
+    const float* values = from->data + c * from->pitch;
+    float* to = out.data + c * out.pitch;
+    const size_t step = from->step;
+    each([&](size_t i) { to[hits[i].slot] = values[i * step]; });
+  }
+  if (out.found) each([&](size_t i) { out.found[hits[i].slot] = 1; });
 }
 
 } // namespace
@@ -186,7 +192,7 @@ struct HitShader::Work {
   bool beside = false;      ///< somebody differentiates
   bool done_beside = false; ///< nobody differentiates what the surface shader leaves behind
   bool apart = false;       ///< E is read: hits of rays from different places cannot be shaded together
-  VarFilter is_read;
+  ReadVariables read;
 
   template <class F> bool any_shader(F&& f) const {
     for (const slvm::Instance* shader : {set.displacement, set.surface})
@@ -366,6 +372,7 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
   WorkerLease lease(*this, false);
   Work work;
   uint32_t last = 0;
+  size_t group_end = 0, most = 0;
   auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
     if (group(first) != last) {
@@ -373,13 +380,48 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
       work = prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand);
     }
     auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
-    for (end = first + 1; end < hits.size() && end - first < kHitsAGrid && group(end) == last; ++end) {
+    if (first == group_end) {
+      while (group_end < hits.size() && group(group_end) == last)
+        ++group_end;
+      // Grids of about the same size, none of a few points.
+      const size_t count = group_end - first,
+                   grids = std::max<size_t>((count + kHitsAGrid / 2) / kHitsAGrid, 1);
+      most = (count + grids - 1) / grids;
+    }
+    for (end = first + 1; end < group_end && end - first < most; ++end) {
       if (work.apart && batch.rays.origin(hits[end]) != batch.rays.origin(hits[first])) break;
       if (demand.attributes && state(hits[end]) != state(hits[first])) break;
     }
     shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand, work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }
+}
+
+/// The predefined variables that shaders, their lights and outputs read.
+std::bitset<slvm::kGlobalCount> HitShader::read_of_grids(const Work& work, const BoundAttributes& bound,
+                                                         std::span<const slvm::RayOutput> outputs) {
+  std::bitset<slvm::kGlobalCount> out;
+  // Displaced points get new tangents; volumes are chosen by the geometric normal; plug-ins see all.
+  if (work.set.displacement || !work.volumes.empty()) return out.set();
+  bool all = false;
+  auto add = [&](const slvm::Program& p) {
+    for (const slvm::Slot& slot : p.slots)
+      if (Global g = slot.parameter ? Global::kCount : slvm::find_global(slot.name); g != Global::kCount)
+        out.set(static_cast<size_t>(g));
+    all = all || std::any_of(p.imports.begin(), p.imports.end(),
+                             [&](slvm::ShadeopId id) { return p.plugins.find(id) != nullptr; });
+  };
+  // Others than the surface shader may be asked for their parameters, whose defaults read variables, too.
+  for (const slvm::Instance* shader :
+       {work.set.surface, work.set.atmosphere, work.set.interior, work.set.exterior})
+    if (shader) add(shader->program());
+  for (const slvm::Instance* light : bound.lights) // which may run with values that surfaces send
+    add(light->shader().program());
+  for (const slvm::RayOutput& o : outputs)
+    if (Global g = slvm::find_global(o.name); g != Global::kCount) out.set(static_cast<size_t>(g));
+  for (Global g : {Global::kP, Global::kN, Global::kCs, Global::kOs})
+    out.set(static_cast<size_t>(g));
+  return all ? out.set() : out;
 }
 
 HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
@@ -398,7 +440,8 @@ HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& b
   w.done_beside = !lights && std::none_of(w.volumes.begin(), w.volumes.end(),
                                           [](auto* volume) { return differentiates(*volume); });
   w.apart = w.any_shader([](const slvm::Instance& shader) { return reads(shader, "E", false); });
-  w.is_read = [outputs, shaders = w](const std::string& name) {
+  w.read.predefined = read_of_grids(w, bound, outputs);
+  w.read.of_primitives = [outputs, shaders = w](const std::string& name) {
     return shaders.any_shader([&](const slvm::Instance& s) { return reads(s, name, true); }) ||
            std::any_of(outputs.begin(), outputs.end(),
                        [&](const slvm::RayOutput& out) { return out.name == name; });
@@ -467,7 +510,7 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
                            uint64_t id) {
   const slvm::ShaderSet& set = work.set;
   slvm::Grid& grid = worker.hits.grid;
-  worker.hits.dice(scene_, batch.rays, hits, work.beside, dice_, work.is_read);
+  worker.hits.dice(scene_, batch.rays, hits, work.beside, dice_, work.read);
   const float* weight[3] = {grid.ray.weight[0], grid.ray.weight[1], grid.ray.weight[2]};
   grid.ray = batch.facts;
   std::copy_n(weight, 3, grid.ray.weight);

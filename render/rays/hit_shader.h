@@ -56,6 +56,8 @@ private:
                   uint64_t id);
   Work prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
                const Demand& demand) const;
+  static std::bitset<slvm::kGlobalCount> read_of_grids(const Work& work, const BoundAttributes& bound,
+                                                       std::span<const slvm::RayOutput> outputs);
   bool is_primitive_mode(const Primitive&, const HitBatch& batch) const;
   const slvm::ShaderSet& set_of(const Primitive&) const;
   void take_attributes(const HitBatch& batch, const slvm::Grid& grid, const slvm::ShaderSet& set,

@@ -5,6 +5,7 @@
 #include "render/prims/motion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -50,63 +51,82 @@ void RayGeometry::make(Item& item) {
   std::vector<float> moments{0};
   if (item.traits.moving) {
     std::set<float> keys;
-    for (uint32_t p : item.primitives)
-      for (float t : motion_times(scene_.primitives[p]))
+    for (const ItemPart& part : item.parts)
+      for (float t : motion_times(scene_.primitives[part.primitive]))
         keys.insert(t);
     if (!keys.empty()) moments = moments_of(keys);
   }
   std::vector<QuadMesh> parts;
-  parts.reserve(item.primitives.size());
-  for (size_t i = 0; i < item.primitives.size(); ++i)
-    tessellate(scene_.primitives[item.primitives[i]], item.rates[i], displacer_, moments,
+  parts.reserve(item.parts.size());
+  for (size_t i = 0; i < item.parts.size(); ++i)
+    tessellate(scene_.primitives[item.parts[i].primitive], item.rates[i], displacer_, moments,
                item.placed ? &item.to_object : nullptr, parts);
   item.faces = device_.build(joined(parts, moments.size()));
   ++made_;
-  faces_ += item.first_face.back();
+  faces_ += item.faces_all;
   item.ready.store(item.faces.get(), std::memory_order_release);
   item.made.store(true, std::memory_order_release);
 }
 
-/// The number of the primitive in the item whose face it is.
-size_t RayGeometry::part_of(const Item& item, uint32_t face) const {
-  if (item.primitives.size() == 1) return 0;
-  auto after = std::upper_bound(item.first_face.begin(), item.first_face.end(), face);
-  return static_cast<size_t>(after - item.first_face.begin()) - 1;
+void PartIndex::build(std::span<const ItemPart> parts, uint32_t faces) {
+  const auto count = static_cast<uint32_t>(parts.size());
+  // About as many blocks as parts.
+  shift_ = std::bit_width(std::max(faces / std::max(count, 1u), 1u)) - 1;
+  uint32_t part = 0;
+  for (uint64_t face = 0; face < faces; face += uint64_t{1} << shift_) {
+    while (part + 1 < count && parts[part + 1].first_face <= face)
+      ++part;
+    first_.push_back(part);
+  }
+  first_.push_back(count - 1);
+}
+
+size_t PartIndex::find(std::span<const ItemPart> parts, uint32_t face) const {
+  const size_t block = face >> shift_;
+  size_t low = first_[block], high = first_[block + 1];
+  while (low < high) {
+    const size_t middle = (low + high + 1) / 2;
+    if (parts[middle].first_face <= face)
+      low = middle;
+    else
+      high = middle - 1;
+  }
+  return low;
+}
+
+const Primitive& RayGeometry::primitive_of(const Item& item, uint32_t face) const {
+  return scene_.primitives[item.parts[item.part_index.find(item.parts, face)].primitive];
 }
 
 SurfacePlace RayGeometry::place(const RayHit& hit) const {
   const Item& item = *items_[hit.item];
-  size_t i = part_of(item, hit.face);
-  FaceRate rate = item.rates[i];
-  const uint32_t face = hit.face - item.first_face[i], row = face / static_cast<uint32_t>(rate.u);
-  SurfacePlace out;
-  out.primitive = item.primitives[i];
-  out.u =
-      (static_cast<float>(face - row * static_cast<uint32_t>(rate.u)) + hit.u) / static_cast<float>(rate.u);
-  out.v = (static_cast<float>(row) + hit.v) / static_cast<float>(rate.v);
-  out.u = std::clamp(out.u, 0.0f, 1.0f);
-  out.v = std::clamp(out.v, 0.0f, 1.0f);
-  out.displaced = item.displaced[i];
-  return out;
+  const ItemPart& part = item.parts[item.part_index.find(item.parts, hit.face)];
+  const uint32_t face = hit.face - part.first_face, row = face >> part.log_u,
+                 column = face & ((1u << part.log_u) - 1);
+  auto parameter = [](uint32_t whole, float rest, uint8_t log) {
+    return std::clamp((static_cast<float>(whole) + rest) / static_cast<float>(1u << log), 0.0f, 1.0f);
+  };
+  return {part.primitive, parameter(column, hit.u, part.log_u), parameter(row, hit.v, part.log_v),
+          part.displaced};
 }
 
 /// The patches of one request are one surface.
 bool RayGeometry::same_surface(uint32_t index, uint32_t face, uint32_t other) const {
   const Item& item = *items_[index];
-  auto state = [&](uint32_t f) { return scene_.primitives[item.primitives[part_of(item, f)]].state.get(); };
-  return state(face) == state(other);
+  return primitive_of(item, face).state == primitive_of(item, other).state;
 }
 
 RayOpacity RayGeometry::shadow(const RayHit& hit) const {
   const Item& item = *items_[hit.item];
-  if (!item.solid) return item.traits.shadow;
-  return scene_.primitives[item.primitives[part_of(item, hit.face)]].attributes().rays.shadow();
+  return item.solid ? primitive_of(item, hit.face).attributes().rays.shadow() : item.traits.shadow;
 }
+
+namespace {
 
 /// A subset names groups that are seen, or, with "-", groups that are not; with only the latter all others
 /// are.
-bool RayGeometry::group_is_in(uint32_t groups, std::string_view subset) const {
-  std::vector<std::string_view> members = words_of(groups_[groups]);
+bool is_in(std::string_view groups, std::string_view subset) {
+  std::vector<std::string_view> members = words_of(groups);
   bool wanted = false, any_wanted = false;
   for (std::string_view word : words_of(subset)) {
     bool without = word[0] == '-';
@@ -119,20 +139,40 @@ bool RayGeometry::group_is_in(uint32_t groups, std::string_view subset) const {
   return wanted || !any_wanted;
 }
 
-const uint8_t* RayGeometry::seen(slvm::RayKind kind, std::string_view subset) {
-  std::lock_guard lock(seen_mutex_);
-  auto [it, is_new] = seen_.try_emplace({kind, std::string(subset)});
-  std::vector<uint8_t>& out = it->second;
-  if (!is_new) return out.data();
-  out.resize(items_.size() + 1); // never without data
+bool is_visible(slvm::RayKind kind, bool specular, bool diffuse, RayOpacity shadow) {
+  switch (kind) {
+  case slvm::RayKind::kSpecular: return specular;
+  case slvm::RayKind::kDiffuse: return diffuse;
+  case slvm::RayKind::kTransmission: return shadow != RayOpacity::kTransparent;
+  }
+  return false;
+}
+
+} // namespace
+
+void RayGeometry::find_seen(slvm::RayKind kind, std::string_view subset, Seen& out) const {
+  out.items.resize(items_.size() + 1); // never without data
   for (size_t i = 0; i < items_.size(); ++i) {
     const RayTraits& t = items_[i]->traits;
-    bool visible = kind == slvm::RayKind::kSpecular  ? t.specular
-                   : kind == slvm::RayKind::kDiffuse ? t.diffuse
-                                                     : t.shadow != RayOpacity::kTransparent;
-    out[i] = visible && group_is_in(t.groups, subset);
+    if (!items_[i]->solid) {
+      out.items[i] = is_visible(kind, t.specular, t.diffuse, t.shadow) && is_in(groups_[t.groups], subset);
+      continue;
+    }
+    out.surfaces.resize(scene_.primitives.size());
+    for (const ItemPart& part : items_[i]->parts) {
+      const RayAttributes& a = scene_.primitives[part.primitive].attributes().rays;
+      const bool seen = is_visible(kind, a.specular, a.diffuse, a.shadow()) && is_in(a.groups, subset);
+      out.surfaces[part.primitive] = seen;
+      out.items[i] = out.items[i] || seen;
+    }
   }
-  return out.data();
+}
+
+RayRule RayGeometry::rule(slvm::RayKind kind, std::string_view subset, slvm::HitSides sides) {
+  std::lock_guard lock(seen_mutex_);
+  auto [it, is_new] = seen_.try_emplace({kind, std::string(subset)});
+  if (is_new) find_seen(kind, subset, it->second);
+  return {it->second.items.data(), it->second.surfaces.data(), sides};
 }
 
 void RayGeometry::trim() {

@@ -46,6 +46,25 @@ struct SurfacePlace {
   bool displaced = false; ///< the faces hit were those of the displaced surface
 };
 
+/// One of the primitives of an item, and where its faces are.
+struct ItemPart {
+  uint32_t primitive = 0; ///< of the scene
+  uint32_t first_face = 0;
+  uint8_t log_u = 0, log_v = 0; ///< 2 to the power of these: faces along u and v
+  bool displaced = false;       ///< its faces are those of the displaced surface
+};
+
+/// Finds the part of an item that a face is of: looks only among those that begin in the face's block.
+class PartIndex {
+public:
+  void build(std::span<const ItemPart> parts, uint32_t faces);
+  size_t find(std::span<const ItemPart> parts, uint32_t face) const;
+
+private:
+  int shift_ = 0;               ///< a block is 2 to the power of this
+  std::vector<uint32_t> first_; ///< part of the first face of each block, and the last part
+};
+
 class RayGeometry final : public ItemFaces {
 public:
   /// All arguments must outlive this. `displacer` may be null.
@@ -58,13 +77,13 @@ public:
   size_t items() const { return items_.size(); }
   SurfacePlace place(const RayHit& hit) const;
   bool same_surface(uint32_t item, uint32_t face, uint32_t other) const override;
-  std::vector<uint32_t> bounding(uint32_t item, Vec3 origin,
+  std::vector<uint32_t> bounding(uint32_t item, const RayRule&, Vec3 origin,
                                  std::span<const RayCrossing> crossings) const override;
   /// What shadows of a surface are like.
   RayOpacity shadow(const RayHit& hit) const;
 
-  /// One an item: whether rays of a kind that see only `subset` (RayOptions) see it. Valid as long as this.
-  const uint8_t* seen(slvm::RayKind kind, std::string_view subset);
+  /// Which hits count for rays of a kind that see only `subset` (RayOptions). Valid as long as this.
+  RayRule rule(slvm::RayKind kind, std::string_view subset, slvm::HitSides sides);
   /// One an item: whether it lets no light through to transmission rays.
   const uint8_t* solid() const { return solid_.data(); }
 
@@ -78,10 +97,10 @@ public:
 private:
   struct Item {
     RayTraits traits;
-    std::vector<uint32_t> primitives;
-    std::vector<uint32_t> first_face; ///< of each primitive, and the end
-    std::vector<FaceRate> rates;
-    std::vector<uint8_t> displaced; ///< of each primitive: its faces are those of the displaced surface
+    std::vector<ItemPart> parts;
+    std::vector<FaceRate> rates; ///< of each part
+    uint32_t faces_all = 0;      ///< of all parts
+    PartIndex part_index;
     Box bounds;
     std::unique_ptr<const RaySolid> solid; ///< that the primitives bound; null: none
     uint32_t model = 0;                    ///< the item whose faces these are: itself, or the first instance
@@ -94,11 +113,16 @@ private:
     std::atomic<uint64_t> used{0};
   };
   class Gatherer;
-  size_t part_of(const Item& item, uint32_t face) const;
+  const Primitive& primitive_of(const Item& item, uint32_t face) const;
 
   const FaceScene* faces(uint32_t item) override;
   void make(Item& item);
-  bool group_is_in(uint32_t groups, std::string_view subset) const;
+  bool is_seen(const Item&, const RayRule&, const RayCrossing&) const;
+  struct Seen {
+    std::vector<uint8_t> items;
+    std::vector<uint8_t> surfaces; ///< by primitive of the scene; only those of solids are told
+  };
+  void find_seen(slvm::RayKind kind, std::string_view subset, Seen& out) const;
 
   const Scene& scene_;
   Displacer* displacer_;
@@ -110,7 +134,7 @@ private:
   std::unique_ptr<RayWorld> world_;
   std::shared_mutex gate_;
   std::mutex seen_mutex_;
-  std::map<std::pair<slvm::RayKind, std::string>, std::vector<uint8_t>, std::less<>> seen_;
+  std::map<std::pair<slvm::RayKind, std::string>, Seen, std::less<>> seen_;
   std::atomic<uint64_t> clock_{1};
   std::atomic<size_t> made_{0}, dropped_{0}, faces_{0};
 };

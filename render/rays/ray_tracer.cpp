@@ -134,7 +134,7 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
     return;
   }
   RayGeometry& g = geometry();
-  RayRule rule{g.seen(options.kind, options.subset), options.sides};
+  const RayRule rule = g.rule(options.kind, options.subset, options.sides);
   const std::vector<Color> weight = weights(by, batch);
   const bool light = min_weight_ > 0 && !weight.empty();
   std::vector<HitRay> hits;

@@ -24,7 +24,7 @@ bool contains(const Box& box, Vec3 p) {
 
 /// As the hider does it (hider/solid_hits.h): a primitive that is crossed an odd number of times has the
 /// ray's origin in it, if that is possible; else it is not closed.
-std::vector<uint32_t> RayGeometry::bounding(uint32_t index, Vec3 origin,
+std::vector<uint32_t> RayGeometry::bounding(uint32_t index, const RayRule& rule, Vec3 origin,
                                             std::span<const RayCrossing> crossings) const {
   const Item& item = *items_[index];
   const RaySolid& solid = *item.solid;
@@ -34,7 +34,9 @@ std::vector<uint32_t> RayGeometry::bounding(uint32_t index, Vec3 origin,
     const RayHit &x = crossings[a].hit, &y = crossings[b].hit;
     return x.distance != y.distance ? x.distance < y.distance : x.face < y.face;
   });
-  auto node_of = [&](uint32_t k) { return solid.node[part_of(item, crossings[k].hit.face)]; };
+  auto node_of = [&](uint32_t k) {
+    return solid.node[item.part_index.find(item.parts, crossings[k].hit.face)];
+  };
   SolidHits hits;
   std::vector<uint32_t> numbers; // of what is in `hits`
   std::vector<uint8_t> done(order.size());
@@ -62,7 +64,18 @@ std::vector<uint32_t> RayGeometry::bounding(uint32_t index, Vec3 origin,
   }
   std::vector<uint32_t> out;
   hits.resolve(*solid.tree, [&](size_t i, const SolidHit&) { out.push_back(numbers[i]); });
+  std::erase_if(out, [&](uint32_t k) { return !is_seen(item, rule, crossings[k]); });
   return out;
+}
+
+/// Every surface of a solid has its own visibility, groups and sides; all of them bound it.
+bool RayGeometry::is_seen(const Item& item, const RayRule& rule, const RayCrossing& crossing) const {
+  const uint32_t number = item.parts[item.part_index.find(item.parts, crossing.hit.face)].primitive;
+  if (rule.seen_surfaces && !rule.seen_surfaces[number]) return false;
+  const Primitive& p = scene_.primitives[number];
+  const bool front = (crossing.along < 0) != p.attributes().flips_normals(p.state->mirrored);
+  if (p.attributes().sides == 1 && !front) return false;
+  return rule.sides == slvm::HitSides::kBoth || front == (rule.sides == slvm::HitSides::kFront);
 }
 
 } // namespace render

@@ -4,6 +4,7 @@
 #include "render/prims/motion.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace render {
 
@@ -28,9 +29,22 @@ float pixel_size(const Camera& camera, Vec3 p) {
   return camera.perspective() ? at_one * std::max(glm::length(p), camera.near_plane()) : at_one;
 }
 
+/// Lines of the probing lattice.
 struct Extent {
-  float bend = 0;   ///< second difference along the side, at most: over kProbes segments
+  float bend = 0;   ///< second difference along a line, at most: over kProbes segments
   float length = 0; ///< of the longest line
+  Box box;
+  /// Takes in a line of points that are `stride` apart; the same from both ends, to the last bit.
+  void add(const Vec3* P, int stride) {
+    for (int i = 0; i <= kProbes; ++i) {
+      const Vec3 here = P[i * stride];
+      box.add(here);
+      if (i == kProbes) continue;
+      const Vec3 next = P[(i + 1) * stride];
+      length = std::max(length, kProbes * glm::distance(here, next));
+      if (i > 0) bend = std::max(bend, glm::length((P[(i - 1) * stride] + next) - 2.0f * here));
+    }
+  }
 };
 
 /// A power of two: edges of different rates still share points.
@@ -87,63 +101,128 @@ bool is_displaced_for_rays(const Primitive& p, const Displacer* displacer) {
   return displacer && p.attributes().rays.displacements && displacer->displaces(p);
 }
 
-FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced) {
+namespace {
+
+/// Decides rates of lines and surfaces.
+class RateRule {
+public:
+  RateRule(const Primitive& p, const Camera& camera, bool displaced)
+      : attributes_(p.attributes()), camera_(camera), displaced_(displaced) {}
+
+  int along(const Extent& e) const {
+    const float pixel = pixel_at(e.box);
+    if (displaced_)
+      return power_of_two(e.length / (pixel * std::sqrt(attributes_.shading_rate) * kDisplacedStep));
+    // A chord leaves an arc by an eighth of the second difference; it falls with the square of their number.
+    return power_of_two(kProbes * std::sqrt(e.bend / 8 / tolerance(pixel)));
+  }
+  /// The two triangles of a twisted face leave it by a quarter of the twist, which falls with both numbers.
+  int across_twist(float twist, const Box& box) const {
+    return displaced_ ? 1 : power_of_two(kProbes * std::sqrt(twist / 4 / tolerance(pixel_at(box))));
+  }
+
+private:
+  float pixel_at(const Box& box) const {
+    return pixel_size(camera_, glm::clamp(Vec3(0.0f), box.min, box.max));
+  }
+  float tolerance(float pixel) const {
+    return std::max(std::min(kDeviation * pixel, kPartOfBias * attributes_.rays.bias),
+                    kLeastDeviation * pixel);
+  }
+
+  const Attributes& attributes_;
+  const Camera& camera_;
+  bool displaced_;
+};
+
+bool bends(const Extent& e) {
+  return e.bend > 1e-5f * e.length;
+}
+
+} // namespace
+
+FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced, bool alone) {
   constexpr int n = kProbes + 1;
   std::vector<Vec3> P;
   surface_positions(p, n, n, P);
-  Box box;
   Extent u, v;
-  auto measure = [&](Extent& e, int k, int stride, int at) {
-    if (at > 0 && at < kProbes)
-      e.bend = std::max(e.bend, glm::length(P[k - stride] - 2.0f * P[k] + P[k + stride]));
-    if (at < kProbes) e.length = std::max(e.length, kProbes * glm::distance(P[k], P[k + stride]));
-  };
-  Vec3 nearest(kInfinity);
   float twist = 0; ///< of the faces of the probing lattice
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      int k = j * n + i;
-      box.add(P[k]);
-      measure(u, k, 1, i);
-      measure(v, k, n, j);
-      if (i < kProbes && j < kProbes)
-        twist = std::max(twist, out_of_plane(P[k], P[k + 1], P[k + n], P[k + n + 1]));
-    }
-  nearest = glm::clamp(Vec3(0.0f), box.min, box.max);
-  float pixel = pixel_size(camera, nearest);
-  const Attributes& a = p.attributes();
-  if (displaced) {
-    float step = pixel * std::sqrt(a.shading_rate) * kDisplacedStep;
-    return {power_of_two(u.length / step), power_of_two(v.length / step)};
+  for (int j = 0; j < n; ++j) {
+    u.add(&P[static_cast<size_t>(j * n)], 1);
+    v.add(&P[static_cast<size_t>(j)], n);
   }
-  float tolerance =
-      std::max(std::min(kDeviation * pixel, kPartOfBias * a.rays.bias), kLeastDeviation * pixel);
-  // A chord leaves an arc by an eighth of the second difference; it falls with the square of their number.
-  // The two triangles of a twisted face leave it by a quarter of the twist, which falls with both numbers.
-  auto segments = [&](float bend) { return kProbes * std::sqrt(bend / 8 / tolerance); };
-  float twisted = kProbes * std::sqrt(twist / 4 / tolerance);
-  bool flat = twist < 1e-5f * (u.length + v.length);
-  auto rate = [&](const Extent& e) {
-    return power_of_two(std::max(segments(e.bend), flat ? 0.0f : twisted));
-  };
-  FaceRate out{rate(u), rate(v)};
+  for (int j = 0; j < kProbes; ++j)
+    for (int k = j * n; k < j * n + kProbes; ++k)
+      twist = std::max(twist, out_of_plane(P[k], P[k + 1], P[k + n], P[k + n + 1]));
+  const RateRule rule(p, camera, displaced);
+  FaceRate out{rule.along(u), rule.along(v)};
+  if (twist >= 1e-5f * (u.length + v.length)) {
+    const int twisted = rule.across_twist(twist, u.box);
+    out.u = std::max(out.u, twisted);
+    out.v = std::max(out.v, twisted);
+  }
   // Closed surfaces must not fall together.
-  auto fewest = p.geometry->coarsest();
-  if (u.bend > 1e-5f * u.length) out.u = std::max(out.u, std::min(fewest[0], kProbes));
-  if (v.bend > 1e-5f * v.length) out.v = std::max(out.v, std::min(fewest[1], kProbes));
+  const auto [fewest_u, fewest_v] = p.geometry->coarsest();
+  if (bends(u)) out.u = std::max(out.u, std::min(fewest_u, kProbes));
+  if (bends(v)) out.v = std::max(out.v, std::min(fewest_v, kProbes));
+  if (alone) {
+    out.sides = {out.u, out.u, out.v, out.v};
+    return out;
+  }
+  // Nothing here may depend on which patch asks.
+  const int fewest = std::min(std::max(fewest_u, fewest_v), kProbes);
+  constexpr std::array<std::pair<int, int>, 4> kSides{{{0, 1}, {n * kProbes, 1}, {0, n}, {kProbes, n}}};
+  for (size_t side = 0; side < 4; ++side) {
+    Extent e;
+    e.add(&P[static_cast<size_t>(kSides[side].first)], kSides[side].second);
+    out.sides[side] = std::max(rule.along(e), bends(e) ? fewest : 1);
+  }
+  out.u = std::max({out.u, out.sides[0], out.sides[1]});
+  out.v = std::max({out.v, out.sides[2], out.sides[3]});
   return out;
 }
 
-void even_out(std::span<FaceRate> rates) {
-  if (rates.size() < 2) return;
-  int most = 1;
-  for (const FaceRate& r : rates)
-    most = std::max({most, r.u, r.v});
-  while (most > 1 && rates.size() * static_cast<size_t>(most) * static_cast<size_t>(most) > kMostFaces)
-    most /= 2;
-  for (FaceRate& r : rates)
-    r = {most, most};
+FaceRate finer_of(const FaceRate& a, const FaceRate& b) {
+  FaceRate out{std::max(a.u, b.u), std::max(a.v, b.v)};
+  for (size_t side = 0; side < 4; ++side)
+    out.sides[side] = std::max(a.sides[side], b.sides[side]);
+  return out;
 }
+
+void limit_faces(std::span<FaceRate> rates) {
+  auto count = [&] {
+    return std::accumulate(rates.begin(), rates.end(), size_t{0},
+                           [](size_t sum, const FaceRate& r) { return sum + r.faces(); });
+  };
+  for (size_t faces = count(); faces > std::max(kMostFaces, rates.size()); faces = count())
+    for (FaceRate& r : rates) {
+      for (int* pieces : {&r.u, &r.v, &r.sides[0], &r.sides[1], &r.sides[2], &r.sides[3]})
+        *pieces = std::max(*pieces / 2, 1);
+    }
+}
+
+namespace {
+
+/// Puts the points of each side on its straight pieces.
+void straighten_sides(const FaceRate& rate, std::vector<Vec3>& P) {
+  const size_t nu = static_cast<size_t>(rate.u) + 1, last = nu * static_cast<size_t>(rate.v);
+  const struct {
+    size_t first, stride;
+    int segments;
+  } sides[4] = {{0, 1, rate.u}, {last, 1, rate.u}, {0, nu, rate.v}, {nu - 1, nu, rate.v}};
+  for (size_t side = 0; side < 4; ++side) {
+    const auto [first, stride, segments] = sides[side];
+    const auto step = static_cast<size_t>(segments / rate.sides[side]);
+    for (size_t i = 0; i < static_cast<size_t>(segments); ++i) {
+      const size_t off = i % step;
+      if (off == 0) continue;
+      const Vec3 a = P[first + (i - off) * stride], b = P[first + (i - off + step) * stride];
+      P[first + i * stride] = a + (b - a) * (static_cast<float>(off) / static_cast<float>(step));
+    }
+  }
+}
+
+} // namespace
 
 void tessellate(const Primitive& p, FaceRate rate, Displacer* displacer, std::span<const float> times,
                 const Matrix4* to_item, std::vector<QuadMesh>& parts) {
@@ -157,6 +236,7 @@ void tessellate(const Primitive& p, FaceRate rate, Displacer* displacer, std::sp
       displaced_positions(there, nu, nv, *displacer, P);
     else
       surface_positions(there, nu, nv, P);
+    straighten_sides(rate, P);
     for (Vec3& q : P) {
       if (!std::isfinite(q.x + q.y + q.z)) q = Vec3(0.0f);
       if (to_item) q = transform_point(*to_item, q);

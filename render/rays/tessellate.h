@@ -1,4 +1,6 @@
 // Primitives as faces for rays: one lattice of quadrilaterals over the whole parameter square of each.
+// Neighbouring patches have lattices as fine as each needs it; along the side they share, points that only
+// one of them has are put on the line between those that both have, which are found from the side alone.
 //
 // How fine: rays see these faces by the way of other surfaces, and the surface itself is evaluated where they
 // hit; what matters is that outlines look smooth and that faces are nearer to the surface than the bias of
@@ -15,9 +17,11 @@
 
 namespace render {
 
-/// Faces along u and along v.
+/// Faces along u and along v, powers of two, and the straight pieces that the sides v = 0, v = 1, u = 0 and
+/// u = 1 consist of, no more than these.
 struct FaceRate {
   int u = 1, v = 1;
+  std::array<int, 4> sides{1, 1, 1, 1};
   size_t faces() const { return static_cast<size_t>(u) * static_cast<size_t>(v); }
 };
 
@@ -37,9 +41,12 @@ public:
 /// Whether rays hit the displaced surface.
 bool is_displaced_for_rays(const Primitive&, const Displacer*);
 
-FaceRate measure_rate(const Primitive&, const Camera&, bool displaced);
-/// Makes the rates of the patches of one request the same, so that their edges meet.
-void even_out(std::span<FaceRate> rates);
+/// The rate of a surface among others of its request that it meets, or `alone`.
+FaceRate measure_rate(const Primitive&, const Camera&, bool displaced, bool alone = true);
+/// Makes the patches of one request coarser where they have too many faces together; sides still meet.
+void limit_faces(std::span<FaceRate> rates);
+/// As fine as both.
+FaceRate finer_of(const FaceRate&, const FaceRate&);
 
 /// Appends the faces of a primitive as it stands at `times` moments. `to_item` is applied to the points.
 void tessellate(const Primitive&, FaceRate, Displacer* displacer, std::span<const float> times,

@@ -151,7 +151,7 @@ void RayTracer::transmission(const slvm::ShadingState& state, const slvm::RayOpt
     return;
   }
   RayGeometry& g = geometry();
-  RayRule rule{g.seen(shadow.kind, options.subset), options.sides};
+  const RayRule rule = g.rule(shadow.kind, options.subset, options.sides);
   std::vector<LightPath> paths;
   {
     auto tracing = g.tracing();

@@ -98,6 +98,31 @@ std::string set_groups(std::string& groups, const slvm::Value& value) {
 
 } // namespace
 
+std::optional<slvm::Value> ray_attribute_value(const RayAttributes& a, std::string_view name) {
+  auto number = [](float x) { return slvm::Value{slvm::Type::kFloat, 0, {x}, {}}; };
+  auto text = [](std::string_view s) { return slvm::Value{slvm::Type::kString, 0, {}, {std::string(s)}}; };
+  auto mode = [&](bool shaded) { return text(shaded ? "shader" : "primitive"); };
+  constexpr std::string_view kOpacities[] = {"transparent", "opaque", "Os", "shader"};
+  if (name == "visibility:camera") return number(a.camera);
+  if (name == "visibility:specular") return number(a.specular);
+  if (name == "visibility:diffuse") return number(a.diffuse);
+  if (name == "visibility:trace") return number(a.specular && a.diffuse);
+  if (name == "visibility:photon") return number(a.photon);
+  if (name == "visibility:transmission") return text(kOpacities[static_cast<size_t>(a.transmission)]);
+  if (name == "shade:specularhitmode") return mode(a.specular_shaded);
+  if (name == "shade:diffusehitmode") return mode(a.diffuse_shaded);
+  if (name == "shade:transmissionhitmode") return mode(a.transmission_shaded);
+  if (name == "trace:bias") return number(a.bias);
+  if (name == "trace:maxspeculardepth") return number(static_cast<float>(a.max_specular_depth));
+  if (name == "trace:maxdiffusedepth") return number(static_cast<float>(a.max_diffuse_depth));
+  if (name == "trace:displacements") return number(a.displacements);
+  if (name == "trace:samplemotion") return number(a.sample_motion);
+  if (name == "irradiance:maxerror") return number(a.max_error);
+  if (name == "irradiance:maxpixeldist") return number(a.max_pixel_distance);
+  if (name == "grouping:membership") return text(a.groups);
+  return {};
+}
+
 std::vector<std::string_view> words_of(std::string_view list) {
   constexpr std::string_view kApart = " ,\t\n\r";
   std::vector<std::string_view> out;

@@ -7,6 +7,10 @@ namespace render {
 
 namespace {
 
+/// What Option "trace" is where nobody sets it.
+constexpr int kMostRayDepth = 10;
+constexpr float kSpecularThreshold = 10;
+
 using slvm::Type;
 using slvm::Value;
 
@@ -56,7 +60,11 @@ std::optional<Value> option_value(const Options& o, std::string_view name) {
   if (n == "DepthOfField") return numbers({o.fstop, o.focal_length, o.focal_distance});
   if (n == "RelativeDetail") return number(o.relative_detail);
   if (n == "Frame") return number(o.frame);
-  return named_value(o.named, name);
+  if (auto given = named_value(o.named, name)) return given;
+  if (n == "trace:maxdepth") return number(kMostRayDepth);
+  if (n == "trace:specularthreshold") return number(kSpecularThreshold);
+  if (n == "trace:minweight") return number(0);
+  return {};
 }
 
 std::optional<Value> attribute_value(const Attributes& a, std::string_view name) {
@@ -73,6 +81,9 @@ std::optional<Value> attribute_value(const Attributes& a, std::string_view name)
   if (n == "TextureCoordinates") return numbers({a.texture_coordinates.begin(), a.texture_coordinates.end()});
   if (n == "Orientation") return text(orientation_name(a.orientation));
   if (n == "ShadingInterpolation") return text(a.smooth_shading ? "smooth" : "constant");
+  // Transmission as it was given: a number or a name.
+  if (auto given = named_value(a.named, name); given && name == "visibility:transmission") return given;
+  if (auto value = ray_attribute_value(a.rays, name)) return value;
   return named_value(a.named, name);
 }
 

@@ -1,6 +1,7 @@
 // What rays cost beside bare Embree, and what shading their hits costs beside one dense grid. Both sides run
 // in turn in one process, on one thread; results are compared before anything is timed. Usage: rays_bench
-// [test | shade]: "test" compares only, "shade" leaves out Embree.
+// [test | shade [rounds [name]]]: "test" compares only, "shade" leaves out Embree; only cases whose names
+// hold `name`.
 #include "slvm/format/slo.h"
 #include "tests/render/rays/ray_scene.h"
 
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <random>
 #include <string>
@@ -22,7 +24,7 @@ namespace {
 using render::Vec3;
 using render::testing::RayScene;
 
-constexpr int kRounds = 15;
+constexpr int kRounds = 15; ///< unless the user says otherwise
 constexpr size_t kBatch = 8192;
 
 template <class F> double seconds_of(F&& f) {
@@ -244,7 +246,7 @@ Rays rays_to_balls(const ShadedScene& scene) {
   return rays;
 }
 
-void compare_with_grid(const ShadedScene& scene) {
+void compare_with_grid(const ShadedScene& scene, int rounds) {
   std::string rib = "Format 500 500 1 Projection \"perspective\" \"fov\" 40 WorldBegin ";
   rib += fmt::format("Attribute \"visibility\" \"trace\" 1 {} Surface \"shiny\" ", scene.rib);
   for (int i = 0; i < scene.balls; ++i)
@@ -279,7 +281,7 @@ void compare_with_grid(const ShadedScene& scene) {
     }
   };
   std::vector<double> with, without, dense, shading, whole;
-  for (int i = 0; i < kRounds; ++i) {
+  for (int i = 0; i < rounds; ++i) {
     with.push_back(seconds_of([&] { trace(s, rays, state, {&Ci, 1}, distance); }));
     without.push_back(seconds_of([&] { trace(s, rays, state, {}, distance); }));
     dense.push_back(seconds_of(shade_dense));
@@ -295,16 +297,17 @@ void compare_with_grid(const ShadedScene& scene) {
       median(shading), median(whole));
 }
 
-void compare_with_grids() {
+void compare_with_grids(int rounds, const std::string& name) {
   std::string slopes = kShiny;
   slopes.insert(slopes.find("Oi = Os"), "n *= 1 + .001 * Du(n) * du;");
   const char* lit = "LightSource \"spot\" 1 \"from\" [4 4 0] \"to\" [0 0 5] LightSource \"spot\" 2 \"from\" "
                     "[-4 4 0] \"to\" [0 0 5] LightSource \"spot\" 3 \"from\" [0 -4 0] \"to\" [0 0 5]";
-  compare_with_grid({"noise", "", kShiny, 1});
-  compare_with_grid({"noise with derivatives (three points a hit)", "", slopes, 1});
-  compare_with_grid({"three lights", lit, kPlastic, 1});
-  compare_with_grid({"three lights, 256 balls", lit, kPlastic, 256});
-  compare_with_grid({"three lights, 256 balls, 8 shaders", lit, kPlastic, 256, true});
+  for (const ShadedScene& scene : {ShadedScene{"noise", "", kShiny, 1},
+                                   {"noise with derivatives (three points a hit)", "", slopes, 1},
+                                   {"three lights", lit, kPlastic, 1},
+                                   {"three lights, 256 balls", lit, kPlastic, 256},
+                                   {"three lights, 256 balls, 8 shaders", lit, kPlastic, 256, true}})
+    if (std::string(scene.name).find(name) != std::string::npos) compare_with_grid(scene, rounds);
 }
 
 } // namespace
@@ -313,6 +316,7 @@ int main(int argc, char** argv) {
   const std::string what = argc < 2 ? "" : argv[1];
   bool measure = what != "test";
   if (what != "shade" && !compare_with_embree(measure)) return 1;
-  if (measure) compare_with_grids();
+  if (measure)
+    compare_with_grids(argc < 3 ? kRounds : std::max(std::atoi(argv[2]), 1), argc < 4 ? "" : argv[3]);
   return 0;
 }

@@ -1,7 +1,7 @@
 // Making rays: this is done for every ray there is, so that it goes array by array, without branches.
 #include "slvm/exec/rays/ray_buffer.h"
 
-#include "slvm/exec/rays/sample_sequence.h"
+#include "slvm/support/sample_sequence.h"
 #include "slvm/support/turn.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "slvm/exec/rays/call_tokens.h"
-#include "slvm/exec/rays/sample_sequence.h"
+#include "slvm/support/sample_sequence.h"
 
 #include <limits>
 

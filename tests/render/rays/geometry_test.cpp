@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <thread>
 
@@ -93,6 +94,63 @@ TEST(RayGeometry, objects_that_differ_are_not_shared) {
       Vec3 to(0.1f, y + dy, 6);
       EXPECT_NEAR(s.distance({{}, to}), glm::length(to), 0.2f) << y;
     }
+}
+
+TEST(RayGeometry, patches_have_rates_of_their_own_and_no_cracks) {
+  // A subdivided cube of 6 x 6 x 6 faces, one of whose vertices is pulled out: few of its patches bend much.
+  std::string counts, corners, points;
+  std::map<std::array<int, 3>, int> numbers;
+  auto vertex = [&](int x, int y, int z) {
+    auto [it, is_new] = numbers.try_emplace({x, y, z}, static_cast<int>(numbers.size()));
+    if (is_new) {
+      const bool out = x == 3 && y == 3 && z == 0;
+      for (int c : {x, y, z})
+        points += std::to_string((c - 3) / 3.0) + " ";
+      if (out) points.replace(points.rfind("-1."), 9, "-1.6");
+    }
+    corners += std::to_string(it->second) + " ";
+  };
+  for (int axis = 0; axis < 3; ++axis)
+    for (int end : {0, 6})
+      for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) {
+          counts += "4 ";
+          for (auto [a, b] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+            int p[3];
+            p[axis] = end;
+            p[(axis + 1) % 3] = end ? i + a : j + b;
+            p[(axis + 2) % 3] = end ? j + b : i + a;
+            vertex(p[0], p[1], p[2]);
+          }
+        }
+  RayScene s(kCamera + "WorldBegin " + kSeen + "Translate 0 0 4 SubdivisionMesh \"catmull-clark\" [" +
+             counts + "] [" + corners + "] [] [] [] [] \"P\" [" + points + "] WorldEnd");
+  EXPECT_EQ(s.messages(), "");
+  int escaped = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const float a = 2.39996f * static_cast<float>(i), z = 1 - 2 * (static_cast<float>(i) + 0.5f) / 40000,
+                r = std::sqrt(1 - z * z);
+    escaped += s.distance({{0, 0, 4}, {r * std::cos(a), r * std::sin(a), z}}) == kInfinity;
+  }
+  EXPECT_EQ(escaped, 0);
+  const size_t faces = s.tracer().usage().geometry.faces;
+  size_t finest = 0;
+  const Camera camera(s.scene().options);
+  for (const Primitive& p : s.scene().primitives) {
+    const FaceRate rate = measure_rate(p, camera, false, false);
+    finest = std::max({finest, static_cast<size_t>(rate.u), static_cast<size_t>(rate.v)});
+    EXPECT_LE(std::max(rate.sides[0], rate.sides[1]), rate.u);
+    EXPECT_LE(std::max(rate.sides[2], rate.sides[3]), rate.v);
+  }
+  EXPECT_LT(faces, s.scene().primitives.size() * finest * finest / 4) << "all as fine as the finest";
+}
+
+TEST(RayGeometry, requests_have_a_limit_of_faces) {
+  std::vector<FaceRate> rates(100, FaceRate{512, 512, {512, 256, 1, 512}});
+  limit_faces(rates);
+  EXPECT_LE(100 * rates[0].faces(), size_t{1} << 22);
+  EXPECT_EQ(rates[0].u, 128);
+  EXPECT_THAT(rates[0].sides, ::testing::ElementsAre(128, 64, 1, 128));
 }
 
 TEST(RayGeometry, many_small_primitives_share_items) {

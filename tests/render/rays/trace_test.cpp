@@ -412,12 +412,31 @@ TEST(SolidRays, a_union_has_no_surface_inside) {
   EXPECT_THAT(met, ElementsAre(FloatNear(4, 3e-3f), FloatNear(7, 3e-3f))) << "traverse()";
 }
 
-TEST(SolidRays, what_cuts_need_not_be_seen) {
-  RayScene s(
-      solid("difference", part("Sphere 2 -2 2 360") +
-                              part("Attribute \"visibility\" \"trace\" 0 \"transmission\" \"transparent\" "
-                                   "Translate 0 0 -2 Sphere 1 -1 1 360")));
-  EXPECT_NEAR(s.distance({}), 4, 3e-3f);
+TEST(SolidRays, surfaces_are_seen_each_as_its_attributes_say) {
+  const std::string ball = part("Sphere 2 -2 2 360"), hole = "Translate 0 0 -2 Sphere 1 -1 1 360";
+  // What rays do not see cuts all the same: they go through where it has cut, to the far side.
+  RayScene unseen(solid("difference", ball + part("Attribute \"visibility\" \"trace\" 0 \"transmission\" "
+                                                  "\"transparent\" " +
+                                                  hole)));
+  EXPECT_NEAR(unseen.distance({}), 7, 3e-3f);
+  EXPECT_NEAR(unseen.distance({{1.5f, 0, 0}}), 5 - std::sqrt(1.75f), 3e-3f);
+  EXPECT_NEAR(unseen.transmission(Vec3(0.0f), {0, 0, 9})[0], .5f, 1e-5f);
+  // Groups.
+  RayScene grouped(
+      solid("difference", ball + part("Attribute \"grouping\" \"string membership\" \"holes\" " + hole)));
+  slvm::RayOptions options;
+  options.subset = "holes";
+  EXPECT_NEAR(grouped.distance({}, options), 4, 3e-3f);
+  EXPECT_EQ(grouped.distance({{1.5f, 0, 0}}, options), kInfinity);
+  options.subset = "-holes";
+  EXPECT_NEAR(grouped.distance({}, options), 7, 3e-3f);
+  // Sides, by the normals that the surfaces have: rays come to the hole from its inside.
+  RayScene sided(solid("difference", ball + part("Sides 1 " + hole)));
+  EXPECT_NEAR(sided.distance({}), 7, 3e-3f);
+  EXPECT_NEAR(sided.distance({{0, 0, 4.5f}, {0, 0, -1}}), .5f, 3e-3f);
+  options = {};
+  options.sides = slvm::HitSides::kFront;
+  EXPECT_EQ(RayScene(solid("difference", ball + part(hole))).distance({}, options), kInfinity);
 }
 
 } // namespace

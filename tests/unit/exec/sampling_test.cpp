@@ -2,7 +2,7 @@
 // points, calls and grids.
 #include "tests/unit/exec/ray_scene.h"
 
-#include "slvm/exec/rays/sample_sequence.h"
+#include "slvm/support/sample_sequence.h"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,5 +1,8 @@
 // Where the samples of a point go: four numbers from 0 to 1 for each, as evenly spread as can be for every
-// count of samples, and different at every point.
+// count of samples, and different at every point. PUBLIC.
+//
+// The first two numbers of the first 2^m samples are a net: of all 2^m rectangles of the unit square that any
+// one grid of 2^k columns and 2^(m - k) rows has, each holds one; scrambling keeps that.
 //
 // Sobol's sequence (I. M. Sobol, 1967), dimensions and direction numbers of S. Joe and F. Y. Kuo,
 // "Constructing Sobol sequences with better two-dimensional projections", SIAM J. Sci. Comput. 30(5), 2008.

@@ -1,5 +1,5 @@
 // Sobol's sequence, by its direction numbers.
-#include "slvm/exec/rays/sample_sequence.h"
+#include "slvm/support/sample_sequence.h"
 
 #include <array>
 #include <cstddef>
