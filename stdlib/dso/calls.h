@@ -25,6 +25,7 @@ ANEMONE_CALL(diffusion_of_material);
 ANEMONE_CALL(diffusion_of_appearance);
 ANEMONE_CALL(diffusion_of_points);
 ANEMONE_CALL(diffusion_of_levels);
+ANEMONE_CALL(diffusion_of_point_levels);
 
 // scatter_calls.cpp: scatter maps (the course's chapter 5).
 ANEMONE_CALL(read_map);
