@@ -9,6 +9,7 @@
  *
  * After "Implementing a Skin BSSRDF" (Hery, RenderMan, Theory and Practice, SIGGRAPH 2003 course 9, chapter 4).
  */
+#define SUBSURFACE_EPSILON 0.15 /* grain of 3 %, below that of the points themselves */
 #include "skin.h"
 #include "subsurface.h"
 #include "pointscattering.h"

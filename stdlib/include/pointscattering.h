@@ -46,10 +46,12 @@ color scatteredround(point P; uniform string cloud; uniform string inner; unifor
 }
 
 /* Lights the points of a cloud that are left, and writes it with their light. For the surface of something that is not seen: one point
- * (a Points primitive) is enough, many are faster. flip: 1 where normals point inward. Lights that filter by the size of micropolygons
- * must do without, as neighbours on this grid lie anywhere.
+ * (a Points primitive) is enough, many are faster. flip: 1 where normals point inward. map: "", or colours that the light is multiplied by
+ * before it spreads (Jensen and Buhler's way to texture), by x and y of each point in mapspace, as s and t; times scale. Lights that filter
+ * by the size of micropolygons must do without, as neighbours on this grid lie anywhere.
  */
-void lightpoints(uniform string input; uniform string output_file; uniform float flip) {
+void lightpoints(uniform string input; uniform string output_file; uniform float flip; uniform string map; uniform string mapspace;
+                 uniform color scale) {
   if (opencache(input) == 1) {
     float index = indexcache();
     while (index >= 0) {
@@ -58,6 +60,11 @@ void lightpoints(uniform string input; uniform string output_file; uniform float
       color light = 0;
       illuminance(at, facing, PI / 2)
         light += Cl * (normalize(L) . facing);
+      if (map != "") {
+        point q = transform(mapspace, at);
+        float ss = xcomp(q), tt = ycomp(q);
+        light *= scale * color texture(map, ss, tt, ss, tt, ss, tt, ss, tt);
+      }
       accumcache(index, light);
       index = indexcache();
     }
