@@ -28,4 +28,22 @@ float mapshadow(uniform string map; point Ps; vector L; float blur) {
   return dark;
 }
 
+/* What a low shadow map is sure of: 0 where all of the surface within radius of Ps ("current" space) is lit, 1 where all of it is in shadow, and
+ * -1 in the grey zone between, where rays have to tell. Places are looked up in the tangent plane, each with its own depth, or surfaces that
+ * slant away from the light would shadow themselves. radius has to be wide enough for the map's pixels and for the penumbra; bias, a depth, for
+ * how much deeper a surface is at the other side of a pixel.
+ */
+float suremapshadow(uniform string map; point Ps; normal Ns; float radius; float bias) {
+  vector n = normalize(Ns);
+  vector a = normalize(n ^ (abs(xcomp(n)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0))), b = n ^ a;
+  float sum = shadow(map, Ps, "width", 0, "bias", bias);
+  uniform float places = 18, i;
+  for (i = 0; i < places; i += 1) {
+    /* The outer ones of a spiral of golden angles lie on the rim. */
+    uniform float r = sqrt(min((i + 1) / (places - 5), 1)), angle = 2.3999632 * i;
+    sum += shadow(map, Ps + radius * r * (cos(angle) * a + sin(angle) * b), "width", 0, "bias", bias);
+  }
+  return sum <= 0 ? 0 : sum >= places + 1 ? 1 : -1;
+}
+
 #endif
