@@ -157,7 +157,8 @@ struct Levels {
 
 /// `material_of` says how a cloud scatters.
 template <class MaterialOf>
-Levels levels_of(const RslContext& context, const RslArg* clouds, const RslArg* limits, MaterialOf&& material_of) {
+Levels levels_of(const RslContext& context, const RslArg* clouds, const RslArg* limits,
+                 MaterialOf&& material_of) {
   RslStringArrayIter files(clouds);
   RslFloatArrayIter radii(limits);
   Levels made;
