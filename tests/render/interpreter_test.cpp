@@ -190,9 +190,8 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
   EXPECT_THAT(messages_of("Frobnicate 1 Frobnicate 2"), HasSubstr("warning: unknown request Frobnicate"));
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
   EXPECT_EQ(messages_of("Attribute \"trace\" \"bias\" .1"), "");
-  EXPECT_THAT(
-      messages_of("Attribute \"irradiance\" \"handle\" \"a\""),
-      HasSubstr("Attribute \"irradiance\" \"handle\" has no effect: irradiance is not kept in files"));
+  EXPECT_THAT(messages_of("Attribute \"irradiance\" \"handle\" \"a\""),
+              HasSubstr("Attribute \"irradiance\" \"handle\" has no effect: irradiance is not kept in files"));
   EXPECT_THAT(messages_of("Option \"bucket\" \"order\" \"circle\""),
               HasSubstr("Option \"bucket\" \"order\" has no effect: buckets are rendered in rows"));
   EXPECT_THAT(messages_of("Option \"statistics\" \"filename\" \"a\""),

@@ -28,7 +28,8 @@ facepaint(uniform color skin = color (0.63, 0.41, 0.29), blood = color (0.55, 0.
   red = max(red, 0.4 * dab(x, y, 0.15, 0.465, 0.135, 0.085));
   red = max(red, 0.3 * dab(x, y, 0, 0.07, 0.12, 0.08));
   red = max(red, 0.4 * smoothstep(0.38, 0.62, abs(x)) * smoothstep(0.12, 0.2, y));
-  red = max(red, 0.75 * smoothstep(0.3, 0.4, abs(x)) * smoothstep(0.15, 0.25, y) * max(veins(point (5 * abs(x), 11 * (y - 0.4 * abs(x)), 2), 0.09), 0.7 * veins(point (9 * abs(x), 19 * (y - 0.4 * abs(x)), 5), 0.1)));
+  float ear = smoothstep(0.3, 0.4, abs(x)) * smoothstep(0.15, 0.25, y), up = y - 0.4 * abs(x);
+  red = max(red, 0.75 * ear * max(veins(point (5 * abs(x), 11 * up, 2), 0.09), 0.7 * veins(point (9 * abs(x), 19 * up, 5), 0.1)));
   c = mix(c, blood * (0.9 + 0.3 * noise(40 * q)), red);
   float u = abs(x) / 0.155;
   float lips = (1 - smoothstep(0.8, 1, u)) * smoothstep(0.142 + 0.03 * u * u, 0.155 + 0.04 * u * u, y) * (1 - smoothstep(0.228, 0.242, y));
@@ -37,7 +38,8 @@ facepaint(uniform color skin = color (0.63, 0.41, 0.29), blood = color (0.55, 0.
   float f1;
   point at;
   voronoi_f1_3d(30 * q, 0.9, f1, at);
-  float freckle = (1 - smoothstep(0.1, 0.24, f1)) * step(0.62, float cellnoise(at)) * max(dab(x, y, 0.1, 0.38, 0.26, 0.13), 0.55 * dab(x, y, 0, 0.85, 0.5, 0.25));
+  float freckled = max(dab(x, y, 0.1, 0.38, 0.26, 0.13), 0.55 * dab(x, y, 0, 0.85, 0.5, 0.25));
+  float freckle = (1 - smoothstep(0.1, 0.24, f1)) * step(0.62, float cellnoise(at)) * freckled;
   c = mix(c, brown, 0.5 * freckle);
   float along = (abs(x) - 0.05) / 0.2;
   float brow = smoothstep(0, 0.15, along) * (1 - smoothstep(0.8, 1, along));

@@ -43,9 +43,8 @@ float varied(float first, size_t k, size_t point) {
 
 } // namespace
 
-// Left out: what cannot be bound, and what asks a scene or another shader (maps, rays, messages), whose own
-// tests go through masks, strips and targets: texture tests, gather_test.cpp and trace_test.cpp,
-// lights_test.cpp.
+// Left out: what cannot be bound, and what asks a scene or another shader (maps, rays, messages), whose own tests go
+// through masks, strips and targets: texture tests, gather_test.cpp and trace_test.cpp, lights_test.cpp.
 bool MatrixCall::can_call(ShadeopId id) {
   const ShadeopInfo& row = shadeop(id);
   if (row.kind == ShadeopKind::kPending ||
