@@ -17,6 +17,10 @@ mapspot(float intensity = 1;                   /* brightness at distance 1 on th
         float beamdistribution = 2;            /* the larger, the faster the light falls off beside the axis */
         string shadowmap = "";                 /* "": no shadows */
         float shadowblur = 0.005;              /* 0 to 1: softness of their edges, a part of the map */
+        /* Maps from the same place that surfaces may ask for, as bufferskin.sl does; they cast no shadows. */
+        string skinmap = "";                   /* the translucent thing alone */
+        string skinnormals = "";               /* its normals, in the light's camera space */
+        string innermap = "";                  /* what is inside it */
         )
 {
   uniform vector A = normalize(to - from);

@@ -29,10 +29,17 @@ vector axisacross(vector along) {
   return normalize(along ^ (abs(xcomp(along)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0)));
 }
 
-/* Sample i of so many: an offset in the plane of two axes, its length is r. Neighbours in number lie a golden angle apart. */
-vector diffusionplace(uniform float i; uniform float samples; float turn; vector base1; vector base2; output float r) {
+/* Sample i of so many: an offset in the plane of two axes, its length is r. Neighbours in number lie a golden angle apart. Each has the density
+ * of one of the three colours, by turns from the one that is first (by chance: 0, 1 or 2); all serve all three, or colours would separate into
+ * grain. weight: 1 over the mean of the three
+ * densities where it lies (Veach's balance heuristic), so that no colour's steep middle is met by too few.
+ */
+vector diffusionplace(uniform float i; uniform float samples; color freepath; float first; float turn; vector base1; vector base2;
+                      output float r; output float weight) {
   float angle = turn + i * 2.3999632;
-  r = diffusionradius((i + random()) / samples);
+  r = comp(freepath, mod(i + first, 3)) * diffusionradius((i + random()) / samples);
+  color part = expcolor(-r / freepath) / (freepath * freepath);
+  weight = 6 * PI / (comp(part, 0) + comp(part, 1) + comp(part, 2));
   return r * (cos(angle) * base1 + sin(angle) * base2);
 }
 
@@ -92,21 +99,20 @@ color lightat(point Pi; normal Ni) {
 }
 
 /* Diffusion of all lights: rays find places of the surface round P, where the light is that of their own, then the dipole brings it to P.
- * The samples spread by the longest free path of the three colours, or colours would separate into grain. Places are found on both sides
- * of the tangent plane, the one nearest to the outside first. `map`: "", or a texture that is the albedo at each place (times
- * `albedo`), looked up at its primitive's s and t.
+ * Places are found on both sides of the tangent plane, the one nearest to the outside first. `map`: "", or a texture that is the albedo at
+ * each place (times `albedo`), looked up at its primitive's s and t.
  */
 color diffusionscattering(point P; normal Nn; color albedo; color freepath; float eta; uniform float samples; uniform string subset;
                           uniform string map) {
   float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
   vector base1 = axisacross(vector Nn), base2 = base1 ^ Nn;
-  float turn = 2 * PI * random();
+  float turn = 2 * PI * random(), first = floor(3 * random());
   uniform float i;
   color sum = 0;
   for (i = 0; i < samples; i += 1) {
-    float r = 0;
-    vector aside = reach * diffusionplace(i, samples, turn, base1, base2, r);
-    float probe = (r + 0.25) * reach;
+    float r = 0, weight = 0;
+    vector aside = diffusionplace(i, samples, freepath, first, turn, base1, base2, r, weight);
+    float probe = r + 0.25 * reach;
     point Pi = 0;
     normal Ni = 0;
     float si = 0, ti = 0;
@@ -118,7 +124,7 @@ color diffusionscattering(point P; normal Nn; color albedo; color freepath; floa
       if (map != "") there *= color texture(map, si, ti, si, ti, si, ti, si, ti, "samples", 1);
       /* The piece of surface behind a piece of tangent plane is larger; how much larger is kept within bounds. */
       float slant = max(abs(Nu . Nn), 0.1);
-      added = lightat(Pi, Nu) * dipoleof(distance(P, Pi), there, freepath, eta) * (2 * PI * reach * reach * exp(r) / slant);
+      added = lightat(Pi, Nu) * dipoleof(distance(P, Pi), there, freepath, eta) * (weight / slant);
     }
     sum += added;
   }
@@ -198,17 +204,15 @@ color singlescatteringbymap(point P; normal Nn; vector In; vector L; color sigma
 color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; float eta; uniform float samples; uniform string map;
                                uniform string inner; float soft) {
   vector toLight = normalize(L);
-  float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
   vector base1 = axisacross(toLight), base2 = base1 ^ toLight;
-  float turn = 2 * PI * random();
+  float turn = 2 * PI * random(), first = floor(3 * random());
   uniform float i;
   color sum = 0;
   for (i = 0; i < samples; i += 1) {
-    float r = 0;
-    point place = P + reach * diffusionplace(i, samples, turn, base1, base2, r), Pi = 0;
+    float r = 0, weight = 0;
+    point place = P + diffusionplace(i, samples, freepath, first, turn, base1, base2, r, weight), Pi = 0;
     if (entrybymap(map, place, Pi) == 1)
-      sum += pastblockers(inner, place, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta) *
-             (2 * PI * reach * reach * exp(r));
+      sum += weight * pastblockers(inner, place, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta);
   }
   return sum / samples;
 }

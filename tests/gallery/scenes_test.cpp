@@ -53,10 +53,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Small{"labels", 0.25, "labels.exr"}, Small{"occlusion", 0.2, "adaptive.exr"},
                       Small{"occlusionrange", 0.3, "0.7854_0.5.exr"},
                       Small{"reflectionocclusion", 0.25, "first4.exr"}, Small{"skin", 0.2, "twopass.exr"},
-                      Small{"skinmap", 0.2, "mixed_behind.exr"}, Small{"skinpoints", 0.2, "skin_front.exr"},
-                      Small{"skintwopass", 0.2, "skin_back.exr"}, Small{"softshadows", 0.2, "radius0.7.exr"},
-                      Small{"stainedglass", 0.15, "two.exr"}, Small{"tank", 0.2, "passes.exr"},
-                      Small{"translucency", 0.2, "passes.exr"}),
+                      Small{"skinbuffers", 0.2, "skin_key.exr"}, Small{"skinmap", 0.2, "mixed_behind.exr"},
+                      Small{"skinpoints", 0.2, "skin_front.exr"}, Small{"skintwopass", 0.2, "skin_back.exr"},
+                      Small{"softshadows", 0.2, "radius0.7.exr"}, Small{"stainedglass", 0.15, "two.exr"},
+                      Small{"tank", 0.2, "passes.exr"}, Small{"translucency", 0.2, "passes.exr"}),
     [](const auto& test) { return std::string(test.param.scene); });
 
 } // namespace
