@@ -4,12 +4,14 @@
 #ifndef ANEMONE_MAPSHADOW_H
 #define ANEMONE_MAPSHADOW_H
 
+#include "axisacross.h"
+
 /* 0 lit to 1 in shadow: over a square of this side (a length in "current" space) round Ps, across the light's direction L. blur: as for
  * shadow(), a part of the map.
  */
 float shadowover(uniform string map; point Ps; vector L; float side; float blur) {
   vector along = normalize(L);
-  vector a = 0.5 * side * normalize(along ^ (abs(xcomp(along)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0)));
+  vector a = 0.5 * side * axisacross(along);
   vector b = along ^ a;
   return shadow(map, Ps - a - b, Ps + a - b, Ps - a + b, Ps + a + b, "blur", blur);
 }
@@ -34,8 +36,7 @@ float mapshadow(uniform string map; point Ps; vector L; float blur) {
  * how much deeper a surface is at the other side of a pixel.
  */
 float suremapshadow(uniform string map; point Ps; normal Ns; float radius; float bias) {
-  vector n = normalize(Ns);
-  vector a = normalize(n ^ (abs(xcomp(n)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0))), b = n ^ a;
+  vector n = normalize(Ns), a = axisacross(n), b = n ^ a;
   float sum = shadow(map, Ps, "width", 0, "bias", bias);
   uniform float places = 18, i;
   for (i = 0; i < places; i += 1) {

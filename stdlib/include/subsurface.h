@@ -10,6 +10,7 @@
 #ifndef ANEMONE_SUBSURFACE_H
 #define ANEMONE_SUBSURFACE_H
 
+#include "axisacross.h"
 #include "scattering.h"
 
 /* The radius below which this part of a plane's samples lies, of density exp(-r) / (2 PI) a unit of area: 1 - exp(-r) (1 + r) = xi, by
@@ -22,11 +23,6 @@ float diffusionradius(float xi) {
   for (i = 0; i < 5; i += 1)
     r -= (r - log(1 + r) - y) * (1 + r) / max(r, 1e-6);
   return max(r, 0);
-}
-
-/* A unit vector across one of unit length. */
-vector axisacross(vector along) {
-  return normalize(along ^ (abs(xcomp(along)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0)));
 }
 
 /* Sample i of so many: an offset in the plane of two axes, its length is r. Neighbours in number lie a golden angle apart. Each has the density
