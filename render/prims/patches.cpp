@@ -145,8 +145,8 @@ std::shared_ptr<const Geometry> make_bilinear(const std::array<Vec3, 4>& points)
   return std::make_shared<BilinearPatch>(points);
 }
 
-std::shared_ptr<const Geometry> make_bicubic(const std::array<Vec3, 16>& points) {
-  return std::make_shared<BicubicPatch>(points);
+std::shared_ptr<const Geometry> make_bicubic(const std::array<Vec3, 16>& points, int coarsest) {
+  return std::make_shared<BicubicPatch>(points, coarsest);
 }
 
 void convert_to_bezier(const CubicBasis& u, const CubicBasis& v, float* values, size_t stride) {

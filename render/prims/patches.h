@@ -32,16 +32,18 @@ private:
 /// Bezier control points.
 class BicubicPatch final : public Geometry {
 public:
-  explicit BicubicPatch(const std::array<Vec3, 16>& p) : p_(p) {}
+  explicit BicubicPatch(const std::array<Vec3, 16>& p, int coarsest = 4) : p_(p), coarsest_(coarsest) {}
   Box bound(const UvRect& r) const override;
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
+  std::array<int, 2> coarsest() const override { return {coarsest_, coarsest_}; }
 
 private:
   std::array<Vec3, 16> p_;
+  int coarsest_;
 };
 
 std::shared_ptr<const Geometry> make_bilinear(const std::array<Vec3, 4>& points);
-std::shared_ptr<const Geometry> make_bicubic(const std::array<Vec3, 16>& points);
+std::shared_ptr<const Geometry> make_bicubic(const std::array<Vec3, 16>& points, int coarsest = 4);
 
 /// Turns 16 control values of the two bases into Bezier values, in place; `stride` floats from value to
 /// value.

@@ -161,8 +161,10 @@ std::vector<float> bezier_values(const FaceSurface& face, const FacePart& part) 
 /// A face near an extraordinary vertex, a sharp edge or the like.
 class IrregularFace final : public Geometry {
 public:
-  IrregularFace(std::shared_ptr<const FaceSurface> face, const FacePart& part)
-      : face_(std::move(face)), part_(part), hull_(face_->hull()) {}
+  IrregularFace(std::shared_ptr<const FaceSurface> face, const FacePart& part, int coarsest)
+      : face_(std::move(face)), part_(part), hull_(face_->hull()), coarsest_(coarsest) {}
+
+  std::array<int, 2> coarsest() const override { return {coarsest_, coarsest_}; }
 
   /// A lattice of points and room for what bulges between them, at most the hull of the control points.
   Box bound(const UvRect& r) const override {
@@ -216,6 +218,7 @@ private:
   std::shared_ptr<const FaceSurface> face_;
   FacePart part_;
   Box hull_;
+  int coarsest_;
 };
 
 class FaceVar final : public VarSurface {
@@ -387,6 +390,12 @@ private:
     return out;
   }
 
+  /// The shape of a mesh of many faces is in its faces; few of them are curved much and cut like patches.
+  int coarsest() const {
+    constexpr size_t kMany = 128;
+    return mesh_.nvertices.size() < kMany ? 4 : 1;
+  }
+
   void add(const std::shared_ptr<const FaceSurface>& surface, const FacePart& part,
            const std::vector<std::shared_ptr<FaceSurface>>& surfaces, size_t face,
            const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) const {
@@ -397,9 +406,9 @@ private:
       std::array<Vec3, 16> points;
       for (size_t k = 0; k < 16; ++k)
         points[k] = {b[3 * k], b[3 * k + 1], b[3 * k + 2]};
-      primitive.geometry = make_bicubic(points);
+      primitive.geometry = make_bicubic(points, coarsest());
     } else {
-      primitive.geometry = std::make_shared<IrregularFace>(surface, part);
+      primitive.geometry = std::make_shared<IrregularFace>(surface, part, coarsest());
     }
     for (size_t i = 0; i < vars_.size(); ++i) {
       const MeshVar& v = vars_[i];

@@ -21,6 +21,10 @@ shadowspot(float intensity = 1;                   /* brightness at distance 1 on
            float blur = 0;                        /* half angle of the cone of rays, radians */
            float radius = 0;                      /* of the lamp: the cone that it fills is taken in place of blur; 0: blur counts */
            float bias = -1;                       /* negative: that of the surface */
+           string subset = "";                    /* the groups of objects that cast shadows; "": all */
+           float __nondiffuse = 0;                /* 1: not for diffuse() */
+           float __nonspecular = 0;               /* 1: not for specular() */
+           string __category = "";                /* names by which light loops choose */
            )
 {
   uniform vector A = normalize(to - from);
@@ -33,7 +37,8 @@ shadowspot(float intensity = 1;                   /* brightness at distance 1 on
     falloff *= smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c);
     float cone = radius > 0 ? atan(radius, distance) : blur;
     uniform float rays = shadowrays(samples);
-    color through = transmission(Ps, from, "samples", rays, "minsamples", min(first, rays), "samplecone", cone, "bias", bias);
+    color through = transmission(Ps, from, "samples", rays, "minsamples", min(first, rays), "samplecone", cone, "bias", bias,
+                                 "subset", subset);
     Cl = falloff * intensity * lightcolor * through;
   }
 }

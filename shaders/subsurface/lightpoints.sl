@@ -6,9 +6,12 @@
 surface
 lightpoints(uniform string input = "points.ply";
             uniform string result = "lit.ply";
-            uniform float flip = 0; /* 1: the cloud's normals point inward */
+            uniform float flip = 0;          /* 1: the cloud's normals point inward */
+            uniform string map = "";         /* colours for the light before it spreads, by x and y in mapspace, as s and t; "": none */
+            uniform string mapspace = "shader";
+            uniform color scale = 1;         /* times the colours: 1 over their mean leaves the material's own colour, above 0 */
             )
 {
-  lightpoints(input, result, flip);
+  lightpoints(input, result, flip, map, mapspace, scale);
   Ci = Oi = 0;
 }

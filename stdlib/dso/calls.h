@@ -25,6 +25,7 @@ ANEMONE_CALL(diffusion_of_material);
 ANEMONE_CALL(diffusion_of_appearance);
 ANEMONE_CALL(diffusion_of_points);
 ANEMONE_CALL(diffusion_of_levels);
+ANEMONE_CALL(diffusion_of_point_levels);
 
 // surface_cells.cpp: the points nearest to a place (the course's 5.5).
 ANEMONE_CALL(surface_cells);

@@ -138,32 +138,67 @@ int diffusion_of_points(RslContext* context, int, const RslArg* argv[]) {
   });
 }
 
+namespace {
+
+/// Levels from fine to coarse, and what they are made of; empty, with a message, if they cannot be used.
+struct Levels {
+  std::vector<std::shared_ptr<LitCloud>> clouds;
+  std::vector<std::shared_ptr<const DiffusionMaterial>> materials;
+  std::vector<CloudLevels::Level> levels;
+};
+
+/// `material_of` says how a cloud scatters.
+template <class MaterialOf>
+Levels levels_of(const RslContext& context, const RslArg* clouds, const RslArg* limits,
+                 MaterialOf&& material_of) {
+  RslStringArrayIter files(clouds);
+  RslFloatArrayIter radii(limits);
+  Levels made;
+  for (int i = 0; i < files.GetLength(); ++i) {
+    const bool last = i + 1 == files.GetLength();
+    if (!last && (i >= radii.GetLength() || !(radii[i] > (i ? radii[i - 1] : 0)))) {
+      complain(context, fmt::format("diffusion(): {} clouds need {} radii that rise, from fine to coarse",
+                                    files.GetLength(), files.GetLength() - 1));
+      return {};
+    }
+    auto cloud = cloud_of(context, files[i]);
+    if (!cloud) return {};
+    made.materials.push_back(material_of(*cloud));
+    made.levels.push_back({&cloud->tree(), made.materials.back().get(), last ? 0 : radii[i]});
+    made.clouds.push_back(std::move(cloud));
+  }
+  return made;
+}
+
+int look_up_levels(const RslArg* result, const RslArg* P, float eta, float epsilon, Levels made) {
+  constexpr float kFade = 0.2f; // of each radius: where one level passes into the next
+  if (made.levels.empty()) return nothing(result);
+  const CloudLevels together(std::move(made.levels));
+  return look_up(result, P, eta, [&](auto& x, auto& light) { together.exitance(x, epsilon, kFade, light); });
+}
+
+} // namespace
+
 // result, P, clouds, radii, albedo, freepath, eta, epsilon
 int diffusion_of_levels(RslContext* context, int, const RslArg* argv[]) {
-  constexpr float kFade = 0.2f; // of each radius: where one level passes into the next
-  RslStringArrayIter files(argv[2]);
-  RslFloatArrayIter radii(argv[3]);
   RslColorIter albedo(argv[4]), free_path(argv[5]);
   RslFloatIter eta(argv[6]), epsilon(argv[7]);
   const Color path = vec3(*free_path);
   if (!positive(*context, "freepath", path) || !positive(*context, "eta", *eta)) return nothing(argv[0]);
-  const DiffusionMaterial dipoles(dipole_of(medium_of(vec3(*albedo), path, 0, static_cast<double>(*eta))));
-  std::vector<std::shared_ptr<LitCloud>> clouds;
-  std::vector<CloudLevels::Level> levels;
-  for (int i = 0; i < files.GetLength(); ++i) {
-    const bool last = i + 1 == files.GetLength();
-    if (!last && (i >= radii.GetLength() || !(radii[i] > (i ? radii[i - 1] : 0)))) {
-      complain(*context, fmt::format("diffusion(): {} clouds need {} radii that rise, from fine to coarse",
-                                     files.GetLength(), files.GetLength() - 1));
-      return nothing(argv[0]);
-    }
-    clouds.push_back(cloud_of(*context, files[i]));
-    if (!clouds.back()) return nothing(argv[0]);
-    levels.push_back({&clouds.back()->tree(), &dipoles, last ? 0 : radii[i]});
-  }
-  const CloudLevels together(std::move(levels));
-  return look_up(argv[0], argv[1], *eta,
-                 [&](auto& x, auto& light) { together.exitance(x, *epsilon, kFade, light); });
+  const auto dipoles = std::make_shared<const DiffusionMaterial>(
+      dipole_of(medium_of(vec3(*albedo), path, 0, static_cast<double>(*eta))));
+  auto same = [&](const LitCloud&) { return dipoles; };
+  return look_up_levels(argv[0], argv[1], *eta, *epsilon, levels_of(*context, argv[2], argv[3], same));
+}
+
+// result, P, clouds, radii, freepath, eta, epsilon
+int diffusion_of_point_levels(RslContext* context, int, const RslArg* argv[]) {
+  RslColorIter free_path(argv[4]);
+  RslFloatIter eta(argv[5]), epsilon(argv[6]);
+  const Color path = vec3(*free_path);
+  if (!positive(*context, "freepath", path) || !positive(*context, "eta", *eta)) return nothing(argv[0]);
+  auto own = [&](LitCloud& cloud) { return cloud.material(path, *eta); };
+  return look_up_levels(argv[0], argv[1], *eta, *epsilon, levels_of(*context, argv[2], argv[3], own));
 }
 
 } // namespace subsurface_plugin

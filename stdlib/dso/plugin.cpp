@@ -34,6 +34,9 @@ const RslFunction kFunctions[] = {
     {"color diffusion(point P, uniform string[] clouds, uniform float[] radii, uniform color albedo, uniform "
      "color freepath, uniform float eta, uniform float epsilon)",
      diffusion_of_levels, NULL, NULL, NULL, NULL},
+    {"color diffusion(point P, uniform string[] clouds, uniform float[] radii, uniform color freepath, "
+     "uniform float eta, uniform float epsilon)",
+     diffusion_of_point_levels, NULL, NULL, NULL, NULL},
 
     {"void surfacecells(uniform string cloud, point P, output float nearest, output float second, output "
      "point centre)",

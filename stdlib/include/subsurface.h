@@ -10,6 +10,7 @@
 #ifndef ANEMONE_SUBSURFACE_H
 #define ANEMONE_SUBSURFACE_H
 
+#include "axisacross.h"
 #include "scattering.h"
 
 /* The radius below which this part of a plane's samples lies, of density exp(-r) / (2 PI) a unit of area: 1 - exp(-r) (1 + r) = xi, by
@@ -24,16 +25,23 @@ float diffusionradius(float xi) {
   return max(r, 0);
 }
 
-/* A unit vector across one of unit length. */
-vector axisacross(vector along) {
-  return normalize(along ^ (abs(xcomp(along)) > 0.7 ? vector (0, 1, 0) : vector (1, 0, 0)));
+/* Sample i of so many: an offset in the plane of two axes, its length is r. Neighbours in number lie a golden angle apart. Each is spread as
+ * one of the three colours is, by turns from the one that is first (by chance: 0, 1 or 2); all serve all three, or colours would separate
+ * into grain.
+ */
+vector diffusionplace(uniform float i; uniform float samples; color freepath; float first; float turn; vector base1; vector base2;
+                      output float r) {
+  float angle = turn + i * 2.3999632;
+  r = comp(freepath, mod(i + first, 3)) * diffusionradius((i + random()) / samples);
+  return r * (cos(angle) * base1 + sin(angle) * base2);
 }
 
-/* Sample i of so many: an offset in the plane of two axes, its length is r. Neighbours in number lie a golden angle apart. */
-vector diffusionplace(uniform float i; uniform float samples; float turn; vector base1; vector base2; output float r) {
-  float angle = turn + i * 2.3999632;
-  r = diffusionradius((i + random()) / samples);
-  return r * (cos(angle) * base1 + sin(angle) * base2);
+/* How densely these lie at r: the mean of the three colours' densities (Veach's balance heuristic), so that no colour's steep middle is met by
+ * too few.
+ */
+float diffusiondensity(float r; color freepath) {
+  color part = expcolor(-r / freepath) / (freepath * freepath);
+  return (comp(part, 0) + comp(part, 1) + comp(part, 2)) / (6 * PI);
 }
 
 /* What a sample of single scattering adds, for a light of radiance 1 in a solid angle of 1: light that enters where the normal is Ni, goes
@@ -97,22 +105,20 @@ color lightat(point Pi; normal Ni) {
 /* How densely rays along one axis find a place: those of diffusionplace(), spread on the plane across the axis, on a surface that is turned
  * from that plane. offset: from P to the place.
  */
-float densityalong(vector axis; vector offset; normal Nu; float reach) {
-  float r = length(offset - (offset . axis) * axis) / reach;
-  return exp(-r) * abs(Nu . axis) / (2 * PI * reach * reach);
+float densityalong(vector axis; vector offset; normal Nu; color freepath) {
+  return diffusiondensity(length(offset - (offset . axis) * axis), freepath) * abs(Nu . axis);
 }
 
 /* Diffusion of all lights: rays find places of the surface round P, where the light is that of their own, then the dipole brings it to P.
- * The samples spread by the longest free path of the three colours, or colours would separate into grain. Three quarters of the rays go
- * along the normal, the others along two axes across it, so that edges and sides that the normal's rays hardly meet are found as well;
- * each place counts by how densely all of them together find it (King, Kulla, Conty, Fajardo, "BSSRDF Importance Sampling", 2013).
- * `map`: "", or a texture that is the albedo at each place (times `albedo`), looked up at its primitive's s and t.
+ * Three quarters of the rays go along the normal, the others along two axes across it, so that edges and sides that the normal's rays hardly
+ * meet are found as well; each place counts by how densely all of them together find it (King, Kulla, Conty, Fajardo, "BSSRDF Importance
+ * Sampling", 2013). `map`: "", or a texture that is the albedo at each place (times `albedo`), looked up at its primitive's s and t.
  */
 color diffusionscattering(point P; normal Nn; color albedo; color freepath; float eta; uniform float samples; uniform string subset;
                           uniform string map) {
   float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
   vector base1 = axisacross(vector Nn), base2 = base1 ^ Nn;
-  float turn = 2 * PI * random();
+  float turn = 2 * PI * random(), colour = floor(3 * random());
   uniform float across = samples < 3 ? 0 : max(1, floor(samples / 8)), i;
   uniform float along = samples - 2 * across;
   color sum = 0;
@@ -121,8 +127,8 @@ color diffusionscattering(point P; normal Nn; color albedo; color freepath; floa
     uniform float first = way == 0 ? 0 : way == 1 ? along : along + across;
     vector axis = way == 0 ? vector Nn : way == 1 ? base1 : base2;
     float r = 0;
-    vector aside = reach * diffusionplace(i - first, way == 0 ? along : across, turn, way == 0 ? base1 : vector Nn,
-                                          way == 2 ? base1 : base2, r);
+    vector aside = diffusionplace(i - first, way == 0 ? along : across, freepath, colour, turn, way == 0 ? base1 : vector Nn,
+                                  way == 2 ? base1 : base2, r);
     float probe = SUBSURFACE_PROBE * reach;
     point Pi = 0;
     normal Ni = 0;
@@ -134,8 +140,8 @@ color diffusionscattering(point P; normal Nn; color albedo; color freepath; floa
       vector offset = Pi - P;
       color there = albedo;
       if (map != "") there *= color texture(map, si, ti, si, ti, si, ti, si, ti, "samples", 1);
-      float density = along * densityalong(vector Nn, offset, Nu, reach) + across * densityalong(base1, offset, Nu, reach) +
-                      across * densityalong(base2, offset, Nu, reach);
+      float density = along * densityalong(vector Nn, offset, Nu, freepath) + across * densityalong(base1, offset, Nu, freepath) +
+                      across * densityalong(base2, offset, Nu, freepath);
       /* In a ball, all of which rays along any axis reach: beyond it some would, and what they find would weigh far too much. */
       if (length(offset) < probe && density > 0) added += lightat(Pi, Nu) * dipoleof(length(offset), there, freepath, eta) / density;
     }
@@ -227,17 +233,15 @@ color singlescatteringbymap(point P; normal Nn; vector In; vector L; color sigma
 color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; float eta; uniform float samples; uniform string map;
                                uniform string inner; float soft) {
   vector toLight = normalize(L);
-  float reach = max(comp(freepath, 0), comp(freepath, 1), comp(freepath, 2));
   vector base1 = axisacross(toLight), base2 = base1 ^ toLight;
-  float turn = 2 * PI * random();
+  float turn = 2 * PI * random(), first = floor(3 * random());
   uniform float i;
   color sum = 0;
   for (i = 0; i < samples; i += 1) {
     float r = 0;
-    point place = P + reach * diffusionplace(i, samples, turn, base1, base2, r), Pi = 0;
+    point place = P + diffusionplace(i, samples, freepath, first, turn, base1, base2, r), Pi = 0;
     if (entrybymap(map, place, Pi) == 1)
-      sum += pastblockers(inner, place, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta) *
-             (2 * PI * reach * reach * exp(r));
+      sum += pastblockers(inner, place, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta) / diffusiondensity(r, freepath);
   }
   return sum / samples;
 }

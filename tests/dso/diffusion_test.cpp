@@ -73,6 +73,25 @@ TEST_F(Diffusion, OfLevels) {
   }
 }
 
+TEST_F(Diffusion, OfLevelsByTheColoursOfTheirPoints) {
+  PointCloud coarse = DiffusionTree::build(cloud_)->coarser(0.3f);
+  save("coarse.ply", coarse);
+  const auto got = run("string c[2] = {" + quoted("lit.ply") + "," + quoted("coarse.ply") +
+                           "}; float r[1] = {.5}; Ci = diffusion(P, c, r, color(.3, .2, .1), 1.3, 0);",
+                       4);
+  EXPECT_THAT(messages(), IsEmpty());
+  const DiffusionTree fine = *DiffusionTree::build(cloud_), far = *DiffusionTree::build(coarse);
+  const DiffusionMaterial painted(fine, {0.3f, 0.2f, 0.1f}, 1.3), paler(far, {0.3f, 0.2f, 0.1f}, 1.3);
+  const CloudLevels levels({{&fine, &painted, 0.5f}, {&far, &paler, 0}});
+  for (size_t i = 0; i < got.size(); ++i) {
+    const Vec3 x[] = {{static_cast<float>(i) / 3, 0, 1}};
+    Color all[1];
+    levels.exitance(x, 0, 0.2f, all);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_FLOAT_EQ(got[i][c], all[0][c] / static_cast<float>(1 - diffuse_fresnel(1.3)));
+  }
+}
+
 // V6 of the course's figures: in even light what comes back is the albedo.
 TEST_F(Diffusion, AFlatPlateInEvenLightReturnsItsAlbedo) {
   save("plate.ply", plate(300, 30, {1, 1, 2}));

@@ -65,6 +65,14 @@ TEST(Subdivision, limit_points_and_normals_of_a_cube) {
   }
 }
 
+// The whole of a mesh is round enough: 11 by 12 faces need not be cut in 16 each, which 3 by 3 are.
+TEST(Subdivision, faces_of_meshes_of_many_may_be_one_micropolygon) {
+  for (const Primitive& p : scene_of(sheet(11, 12, kBoundary)).primitives)
+    EXPECT_EQ(p.geometry->coarsest(), (std::array<int, 2>{1, 1}));
+  for (const Primitive& p : scene_of(sheet(3, 3, kBoundary)).primitives)
+    EXPECT_EQ(p.geometry->coarsest(), (std::array<int, 2>{4, 4}));
+}
+
 TEST(Subdivision, neighbouring_faces_meet) {
   Scene s = scene_of(std::string("SubdivisionMesh \"catmull-clark\" ") + kCubeFaces + kCubeP);
   // The sum over all faces of the volumes over the origin, by the divergence theorem, is that of a closed

@@ -85,6 +85,20 @@ class Mesh:
         for f in ((0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)):
             self.face([c[i] for i in f])
 
+    def relax(self, times):
+        """Smooths, keeping the volume: a step towards the mean of the neighbours and most of it back (Taubin 1995)."""
+        near = [set() for _ in self.points]
+        for face in self.faces:
+            for a, b in zip(face, face[1:] + face[:1]):
+                near[a].add(b)
+                near[b].add(a)
+        for _ in range(times):
+            for k in (0.5, -0.42):
+                # Sorted: sums of sets depend on their order.
+                means = [scaled(tuple(sum(self.points[j][d] for j in sorted(n)) for d in range(3)), 1 / len(n)) if n else p
+                         for n, p in zip(near, self.points)]
+                self.points = [add(p, scaled(sub(m, p), k)) for p, m in zip(self.points, means)]
+
     def rib(self, scheme="catmull-clark"):
         """A SubdivisionMesh, or PointsPolygons for the scheme "polygons"."""
         def numbers(values):

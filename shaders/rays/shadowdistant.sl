@@ -1,0 +1,32 @@
+/* shadowdistant.sl: parallel light whose shadows are traced: hard, or soft as those of a round lamp far away.
+ *
+ *     Cl = intensity lightcolor transmission(Ps, far away against the light)
+ *
+ * Objects cast shadows by Attribute "visibility" "transmission".
+ */
+#include "tracedshadow.h"
+
+light
+shadowdistant(float intensity = 1;                   /* brightness */
+              color lightcolor = 1;
+              point from = point "shader" (0, 0, 0); /* only the direction from one to the other counts */
+              point to = point "shader" (0, 0, 1);
+              float samples = 1;                     /* shadow rays a point */
+              float minsamples = 0;                  /* where so many agree, no more are shot; 0: always all */
+              float blur = 0;                        /* half angle of the lamp, radians: 0.0047 is the sun's */
+              float bias = -1;                       /* negative: that of the surface */
+              float far = 1e4;                       /* nothing farther away casts shadows, "current" space */
+              string subset = "";                    /* the groups of objects that cast shadows; "": all */
+              float __nondiffuse = 0;                /* 1: not for diffuse() */
+              float __nonspecular = 0;               /* 1: not for specular() */
+              string __category = "";                /* names by which light loops choose */
+              )
+{
+  uniform vector axis = normalize(to - from);
+  uniform float first = minsamples > 0 ? minsamples : samples;
+  solar(axis, 0) {
+    uniform float rays = shadowrays(samples);
+    Cl = intensity * lightcolor * transmission(Ps, Ps - far * axis, "samples", rays, "minsamples", min(first, rays), "samplecone",
+                                               blur, "bias", bias, "subset", subset);
+  }
+}
