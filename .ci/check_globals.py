@@ -18,6 +18,7 @@ UNCHANGING = [
     (r"::crash_point$", "where a signal handler, which gets no argument, finds its thread's way back"),
     (r"^RI_[A-Z]+$|^Ri\w+Basis$|^RiLastError$", "variables that ri.h declares, as the RISpec has them"),
     (r"render::ri::.*process\(\)::state$", "what the functions of ri.h, being C, share"),
+    (r"^anemone_all_kept$", "strings that a plug-in keeps; empty in the host, which includes the same header"),
     (r"::wave_mutex$", "guards what Boost.Wave asks of the C library"),
     (r"^__(?:sancov|asan|ubsan|tsan|odr)|^\.L|^\$", "made by the compiler"),
 ]

@@ -56,20 +56,21 @@ color seenbehind(string background; point P; float rad) {
   return behind;
 }
 
-/* How much of the picture a cone of this half angle covers on what is behind P: rad for seenbehind. depths is a z picture of what
- * is behind, of the same camera; its depth is averaged over about the blur, or edges of things behind would show.
+/* How much of the picture a cone of this half angle covers on what is behind P: rad for seenbehind, of a square that spreads as the cone's
+ * disc does. depths is a z picture of what is behind, of the same camera; its depth is averaged over about the blur, or edges of things behind
+ * would show.
  */
 float radbehind(string depths; point P; float halfangle) {
   point from = transform("camera", P);
   point place = transform("NDC", P);
-  float far = float texture(depths, xcomp(place), ycomp(place), "blur", 0.02);
+  float far = float texture(depths, xcomp(place), ycomp(place), "blur", 0.03);
   /* Nothing behind: as if it were far away. */
   float behind = max(far, zcomp(from));
   point at = from * (behind / max(zcomp(from), 1e-6));
   float radius = (behind - zcomp(from)) * tan(halfangle);
   point middle = transform("camera", "NDC", at);
   point side = transform("camera", "NDC", at + vector (radius, 0, 0));
-  return abs(xcomp(side) - xcomp(middle));
+  return sqrt(3) / 2 * abs(xcomp(side) - xcomp(middle));
 }
 
 #endif
