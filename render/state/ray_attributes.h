@@ -49,7 +49,8 @@ struct RayAttributes {
 std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view category,
                                              std::string_view name, const slvm::Value& value);
 
-/// What a parameter comes to, by its name as attribute() takes it ("trace:bias"), whether it was given or not.
+/// What a parameter comes to, by its name as attribute() takes it ("trace:bias"), whether it was given or
+/// not.
 std::optional<slvm::Value> ray_attribute_value(const RayAttributes& a, std::string_view name);
 
 /// The words of a list apart by spaces or commas.

@@ -18,10 +18,12 @@ float fraction(float x) {
 // In front of the camera and inside the map only; elsewhere there is no shadow.
 bool ShadowMap::in_shadow(const slvm::Matrix4& m, const float (&p)[3], float s_offset, float t_offset,
                           float bias) const {
-  auto row = [&](int c) { return p[0] * m(0, c) + p[1] * m(1, c) + p[2] * m(2, c) + m(3, c); };
-  float w = row(3), z = slvm::transform_point(world_to_camera, {p[0], p[1], p[2]})[2];
+  auto column = [&](const slvm::Matrix4& n, int c) {
+    return p[0] * n(0, c) + p[1] * n(1, c) + p[2] * n(2, c) + n(3, c);
+  };
+  float w = column(m, 3), z = column(world_to_camera, 2);
   if (!(w > 0) || !(z > 0)) return false;
-  float s = 0.5f + 0.5f * row(0) / w + s_offset, t = 0.5f - 0.5f * row(1) / w + t_offset;
+  float s = 0.5f + 0.5f * column(m, 0) / w + s_offset, t = 0.5f - 0.5f * column(m, 1) / w + t_offset;
   if (!(s >= 0 && s < 1 && t >= 0 && t < 1)) return false;
   int x = std::min(static_cast<int>(s * static_cast<float>(width)), width - 1);
   int y = std::min(static_cast<int>(t * static_cast<float>(height)), height - 1);
