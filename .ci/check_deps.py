@@ -60,7 +60,7 @@ ALLOWED = {
 OUTSIDE = {
     r"embree[34]/": ["render/rays", "tests/bench"],
     r"OpenImageIO/": ["render/oiio", "tests/render", "tests/bench/textures", "slvm/tools/sltest"],
-    r"(?:tiffio|png)\.h": ["render/texture", "slvm/support/tiff_open"],
+    r"(?:tiffio|png)\.h": ["render/texture", "slvm/support/tiff_open", "slvm/support/tiff_pixels"],
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
     r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_hits", "render/hider/window_weights", "tests/bench", "tests/unit/kernels"],

@@ -1,23 +1,13 @@
 // Depth images by OpenImageIO.
 #include "render/texture/depth_image.h"
 #include "render/oiio/functions.h"
+#include "render/oiio/spec_matrix.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 
 namespace render::oiio {
-
-namespace {
-
-std::vector<float> matrix(const OIIO::ImageSpec& spec, const char* name) {
-  const OIIO::ParamValue* p = spec.find_attribute(name, OIIO::TypeMatrix);
-  if (!p) return {};
-  const auto* numbers = static_cast<const float*>(p->data());
-  return {numbers, numbers + 16};
-}
-
-} // namespace
 
 std::string read_depth(const std::string& path, DepthImage& out) {
   auto in = OIIO::ImageInput::open(path);

@@ -1,5 +1,6 @@
 // Textures in all the formats of OpenImageIO.
 #include "render/oiio/functions.h"
+#include "render/oiio/spec_matrix.h"
 #include "render/texture/texture_image.h"
 
 #include <OpenImageIO/imageio.h>
@@ -9,13 +10,6 @@
 namespace render::oiio {
 
 namespace {
-
-std::vector<float> matrix(const OIIO::ImageSpec& spec, const char* name) {
-  const OIIO::ParamValue* p = spec.find_attribute(name, OIIO::TypeMatrix);
-  if (!p) return {};
-  const auto* numbers = static_cast<const float*>(p->data());
-  return {numbers, numbers + 16};
-}
 
 OIIO::TypeDesc type_of(TexelType type) {
   return type == TexelType::kByte    ? OIIO::TypeDesc::UINT8

@@ -3,6 +3,7 @@
 
 #include "render/texture/image_file.h"
 #include "render/texture/image_module.h"
+#include "render/texture/texture_tiff.h"
 #include "render/texture/tiff_file.h"
 #include "slvm/support/whole_file.h"
 
@@ -10,6 +11,19 @@
 #include <cstring>
 
 namespace render {
+
+bool read_depth_tiff(const std::string& path, DepthImage& out) {
+  const auto reader = open_tiff_texture(path);
+  if (!reader) return false;
+  const TextureHeader& header = reader->header();
+  if (header.channels != 1 || header.type != TexelType::kFloat) return false;
+  out.width = header.levels[0].width;
+  out.height = header.levels[0].height;
+  out.depth.assign(static_cast<size_t>(out.width) * static_cast<size_t>(out.height), 0.0f);
+  out.world_to_camera = header.world_to_camera;
+  out.world_to_screen = header.world_to_screen;
+  return reader->read(0, std::as_writable_bytes(std::span(out.depth))).empty();
+}
 
 std::string read_depth_image(const std::string& path, DepthImage& out) {
   if (read_depth_tiff(path, out)) return {};

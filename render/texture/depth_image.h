@@ -13,6 +13,8 @@ struct DepthImage {
   std::vector<float> world_to_camera, world_to_screen;
 };
 
+/// Reads a TIFF file with one channel of floats. False: it is another kind of file, or none.
+bool read_depth_tiff(const std::string& path, DepthImage& out);
 /// "" or why there is none.
 std::string read_depth_image(const std::string& path, DepthImage& out);
 /// As a TIFF file of floats, whole or not at all. `texture_format`: "Shadow" for a shadow map, else empty. ""

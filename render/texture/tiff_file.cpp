@@ -1,9 +1,6 @@
 #include "render/texture/tiff_file.h"
 
-#include "render/texture/depth_image.h"
 #include "render/texture/image_file.h"
-
-#include "render/texture/tiff_fields.h"
 #include "slvm/support/tiff_open.h"
 
 #include <algorithm>
@@ -99,33 +96,6 @@ bool write_strips(TIFF* t, const ImageFile& image) {
   return TIFFFlush(t) != 0;
 }
 
-/// Rows of floats, or tiles of them.
-bool read_pixels(TIFF* t, DepthImage& out) {
-  const auto width = static_cast<uint32_t>(out.width), height = static_cast<uint32_t>(out.height);
-  if (!TIFFIsTiled(t)) {
-    if (TIFFScanlineSize(t) != static_cast<tmsize_t>(width * sizeof(float))) return false;
-    for (uint32_t y = 0; y < height; ++y)
-      if (TIFFReadScanline(t, &out.depth[static_cast<size_t>(y) * width], y) < 0) return false;
-    return true;
-  }
-  uint32_t tile_width = 0, tile_height = 0;
-  TIFFGetField(t, TIFFTAG_TILEWIDTH, &tile_width);
-  TIFFGetField(t, TIFFTAG_TILELENGTH, &tile_height);
-  const auto numbers = static_cast<size_t>(tile_width) * tile_height;
-  if (numbers == 0 || TIFFTileSize(t) != static_cast<tmsize_t>(numbers * sizeof(float))) return false;
-  std::vector<float> tile(numbers);
-  for (uint32_t y = 0; y < height; y += tile_height)
-    for (uint32_t x = 0; x < width; x += tile_width) {
-      if (TIFFReadTile(t, tile.data(), x, y, 0, 0) < 0) return false;
-      for (uint32_t row = 0; row < std::min(tile_height, height - y); ++row)
-        std::copy_n(&tile[static_cast<size_t>(row) * tile_width], std::min(tile_width, width - x),
-                    &out.depth[static_cast<size_t>(y + row) * width + x]);
-    }
-  return true;
-}
-
-constexpr uint32_t kLargestSide = 1 << 16;
-
 } // namespace
 
 bool tiff_compresses(const std::string& name) {
@@ -143,28 +113,6 @@ std::string write_tiff(const ImageFile& image) {
   file.reset();
   if (written && messages.empty()) return {};
   return messages.empty() ? "cannot be written" : messages;
-}
-
-bool read_depth_tiff(const std::string& path, DepthImage& out) {
-  Messages messages;
-  File file = open_tiff(path, "r", messages);
-  if (!file) return false;
-  TIFF* t = file.get();
-  uint32_t width = 0, height = 0;
-  uint16_t channels = 1, depth = 1, kind = SAMPLEFORMAT_UINT;
-  TIFFGetField(t, TIFFTAG_IMAGEWIDTH, &width);
-  TIFFGetField(t, TIFFTAG_IMAGELENGTH, &height);
-  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLESPERPIXEL, &channels);
-  TIFFGetFieldDefaulted(t, TIFFTAG_BITSPERSAMPLE, &depth);
-  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLEFORMAT, &kind);
-  if (channels != 1 || depth != 32 || kind != SAMPLEFORMAT_IEEEFP) return false;
-  if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide) return false;
-  out.width = static_cast<int>(width);
-  out.height = static_cast<int>(height);
-  out.depth.assign(static_cast<size_t>(width) * height, 0.0f);
-  out.world_to_camera = matrix_field(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA);
-  out.world_to_screen = matrix_field(t, TIFFTAG_PIXAR_MATRIX_WORLDTOSCREEN);
-  return read_pixels(t, out);
 }
 
 } // namespace render

@@ -1,4 +1,4 @@
-// TIFF files by libtiff: pictures, depth images and shadow maps. Matrices and the size of the whole frame are
+// Pictures and shadow maps as TIFF files. Matrices and the size of the whole frame are
 // in the tags that Pixar registered for them.
 #pragma once
 
@@ -6,15 +6,11 @@
 
 namespace render {
 
-struct DepthImage;
 struct ImageFile;
 
 /// Whether write_tiff() knows the compression: "", "none", "zip", "lzw" or "packbits".
 bool tiff_compresses(const std::string& name);
 /// "" or why there is no whole file.
 std::string write_tiff(const ImageFile&);
-
-/// Reads a TIFF file with one channel of floats. False: it is another kind of file, or none.
-bool read_depth_tiff(const std::string& path, DepthImage& out);
 
 } // namespace render

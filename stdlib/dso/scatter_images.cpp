@@ -1,6 +1,7 @@
 #include "stdlib/dso/scatter_images.h"
 
 #include "slvm/support/tiff_open.h"
+#include "slvm/support/tiff_pixels.h"
 #include "stdlib/subsurface/scatter_map.h"
 
 #include <fmt/format.h>
@@ -24,55 +25,23 @@ struct Image {
   }
 };
 
-/// Rows of tiles or strips, all channels side by side. False: the file is damaged.
-bool read_rows(TIFF* t, Image& image) {
-  image.pixels.resize(image.width * image.height * image.channels);
-  if (!TIFFIsTiled(t)) {
-    for (size_t y = 0; y < image.height; ++y)
-      if (TIFFReadScanline(t, &image.pixels[y * image.width * image.channels], static_cast<uint32_t>(y)) < 0)
-        return false;
-    return true;
-  }
-  uint32_t tile_width = 0, tile_height = 0;
-  TIFFGetField(t, TIFFTAG_TILEWIDTH, &tile_width);
-  TIFFGetField(t, TIFFTAG_TILELENGTH, &tile_height);
-  std::vector<float> tile(static_cast<size_t>(TIFFTileSize(t)) / sizeof(float));
-  if (tile_width == 0 || tile.size() < size_t{tile_width} * tile_height * image.channels) return false;
-  for (size_t y0 = 0; y0 < image.height; y0 += tile_height)
-    for (size_t x0 = 0; x0 < image.width; x0 += tile_width) {
-      if (TIFFReadTile(t, tile.data(), static_cast<uint32_t>(x0), static_cast<uint32_t>(y0), 0, 0) < 0)
-        return false;
-      const size_t columns = std::min<size_t>(tile_width, image.width - x0);
-      for (size_t y = y0; y < std::min<size_t>(y0 + tile_height, image.height); ++y)
-        std::copy_n(&tile[(y - y0) * tile_width * image.channels], columns * image.channels,
-                    &image.pixels[(y * image.width + x0) * image.channels]);
-    }
-  return true;
-}
-
 slvm::Result<Image> read_image(const std::string& path, size_t channels) {
   std::string message;
   auto error = [&](const std::string& text) { return slvm::Error{fmt::format("{}: {}", path, text)}; };
   const slvm::TiffFile file = slvm::open_tiff(path, "r", message);
   if (!file) return error(message.empty() ? "it cannot be read" : message);
   TIFF* t = file.get();
-  uint32_t width = 0, height = 0;
-  uint16_t samples = 1, bits = 1, format = SAMPLEFORMAT_UINT, planes = PLANARCONFIG_CONTIG;
-  TIFFGetField(t, TIFFTAG_IMAGEWIDTH, &width);
-  TIFFGetField(t, TIFFTAG_IMAGELENGTH, &height);
-  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLESPERPIXEL, &samples);
-  TIFFGetFieldDefaulted(t, TIFFTAG_BITSPERSAMPLE, &bits);
-  TIFFGetFieldDefaulted(t, TIFFTAG_SAMPLEFORMAT, &format);
-  TIFFGetFieldDefaulted(t, TIFFTAG_PLANARCONFIG, &planes);
-  if (bits != 32 || format != SAMPLEFORMAT_IEEEFP)
+  const slvm::TiffLayout layout(t);
+  if (!layout.is_float())
     return error("a picture of a scatter map has 32-bit floats (Quantize \"rgba\" 0 0 0 0)");
-  if (samples < channels || planes != PLANARCONFIG_CONTIG)
-    return error(fmt::format("it has {} channels{}, {} are wanted, side by side", samples,
-                             planes != PLANARCONFIG_CONTIG ? " in planes" : "", channels));
-  Image image{width, height, samples, {}};
-  if (image.width * image.height == 0 || image.width * image.height > kMostPixels / samples)
-    return error(fmt::format("{} x {} pixels are too many or too few", width, height));
-  if (!read_rows(t, image)) return error(message.empty() ? "it is damaged" : message);
+  if (layout.channels < channels)
+    return error(fmt::format("it has {} channels, {} are wanted", layout.channels, channels));
+  Image image{layout.width, layout.height, layout.channels, {}};
+  if (image.width * image.height == 0 || image.width * image.height > kMostPixels / layout.channels)
+    return error(fmt::format("{} x {} pixels are too many or too few", layout.width, layout.height));
+  image.pixels.resize(image.width * image.height * image.channels);
+  if (!slvm::TiffPixels(t, layout).read(std::as_writable_bytes(std::span(image.pixels))))
+    return error(message.empty() ? "it is damaged" : message);
   return image;
 }
 

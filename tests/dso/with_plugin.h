@@ -30,12 +30,7 @@ protected:
     slvm::Grid grid = slvm::test::square(nu, nv);
     slvm::ShadingContext context(machine, services);
     if (surface) context.shade({.surface = surface.get()}, grid);
-    std::vector<Color> out;
-    for (size_t i = 0; i < grid.points(); ++i) {
-      const slvm::Planes& ci = grid.variable(slvm::Global::kCi);
-      out.push_back({ci.get(0, i), ci.get(1, i), ci.get(2, i)});
-    }
-    return out;
+    return slvm::test::colours_of<Color>(grid);
   }
 
   /// What messages there are beyond those that were taken before.

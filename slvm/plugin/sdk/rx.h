@@ -260,6 +260,15 @@ ANEMONE_INLINE int RxShadow(const char* map, int firstchannel, const float* P0, 
   return status;
 }
 
+ANEMONE_INLINE void anemone_set_coordinates(AnemoneLookup* lookup, const float* s0, const float* t0,
+                                            const float* s1, const float* t1, const float* s2,
+                                            const float* t2, const float* s3, const float* t3) {
+  anemone_set_corner(lookup, 0, s0, t0, t0, 1);
+  anemone_set_corner(lookup, 1, s1, t1, t1, 1);
+  anemone_set_corner(lookup, 2, s2, t2, t2, 1);
+  anemone_set_corner(lookup, 3, s3, t3, t3, 1);
+}
+
 // The same for many points at once: arrays with a number of each point, or with three (dir0, P0...). The
 // channels of a point stand side by side in `result`.
 ANEMONE_INLINE int RxTexturePointsV(const char* map, int points, int firstchannel, int nchannels, float* s0,
@@ -267,10 +276,7 @@ ANEMONE_INLINE int RxTexturePointsV(const char* map, int points, int firstchanne
                                     float* t3, float* result, int n, char* tokens[], void* values[]) {
   AnemoneLookup lookup;
   anemone_set_lookup(&lookup, "RxTexturePoints", 0, map, points, firstchannel, nchannels, result);
-  anemone_set_corner(&lookup, 0, s0, t0, t0, 1);
-  anemone_set_corner(&lookup, 1, s1, t1, t1, 1);
-  anemone_set_corner(&lookup, 2, s2, t2, t2, 1);
-  anemone_set_corner(&lookup, 3, s3, t3, t3, 1);
+  anemone_set_coordinates(&lookup, s0, t0, s1, t1, s2, t2, s3, t3);
   return anemone_look_up(&lookup, n, tokens, values);
 }
 ANEMONE_INLINE int RxTexturePoints(const char* map, int points, int firstchannel, int nchannels, float* s0,
@@ -280,10 +286,7 @@ ANEMONE_INLINE int RxTexturePoints(const char* map, int points, int firstchannel
   va_list list;
   int status;
   anemone_set_lookup(&lookup, "RxTexturePoints", 0, map, points, firstchannel, nchannels, result);
-  anemone_set_corner(&lookup, 0, s0, t0, t0, 1);
-  anemone_set_corner(&lookup, 1, s1, t1, t1, 1);
-  anemone_set_corner(&lookup, 2, s2, t2, t2, 1);
-  anemone_set_corner(&lookup, 3, s3, t3, t3, 1);
+  anemone_set_coordinates(&lookup, s0, t0, s1, t1, s2, t2, s3, t3);
   va_start(list, result);
   status = anemone_look_up_list(&lookup, list);
   va_end(list);

@@ -83,6 +83,15 @@ inline Grid square(int nu, int nv) {
   return grid;
 }
 
+/// Ci at each point, as triples of three numbers.
+template <class Triple> std::vector<Triple> colours_of(const Grid& grid) {
+  const Planes& Ci = grid.variable(Global::kCi);
+  std::vector<Triple> out;
+  for (size_t i = 0; i < grid.points(); ++i)
+    out.push_back({Ci.get(0, i), Ci.get(1, i), Ci.get(2, i)});
+  return out;
+}
+
 /// Ci of a surface on a grid, red first.
 inline std::vector<float> red(const Grid& grid, size_t component = 0) {
   std::vector<float> out;

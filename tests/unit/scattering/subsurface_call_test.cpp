@@ -46,12 +46,7 @@ protected:
     slvm::Grid grid = slvm::test::square(n, 1);
     slvm::ShadingContext context(*machine_, services_);
     if (surface) context.shade({.surface = surface.get()}, grid);
-    std::vector<Color> out;
-    for (size_t i = 0; i < grid.points(); ++i) {
-      const slvm::Planes& ci = grid.variable(slvm::Global::kCi);
-      out.push_back({ci.get(0, i), ci.get(1, i), ci.get(2, i)});
-    }
-    return out;
+    return slvm::test::colours_of<Color>(grid);
   }
   std::vector<std::string> messages() const {
     std::vector<std::string> out;
