@@ -64,20 +64,24 @@ template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileCha
   const PixelRect& r = image_.rect;
   std::vector<std::byte> out(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) *
                              channels.size() * sizeof(T));
-  std::byte* at = out.data();
-  for (int y = r.y0; y < r.y1; ++y)
-    for (int x = r.x0; x < r.x1; ++x)
-      for (const FileChannel& c : channels) {
-        float v = image_.pixel(x, y)[c.source];
-        const Quantization& q = c.quantization;
+  const auto width = static_cast<size_t>(r.width()), stride = static_cast<size_t>(image_.channels);
+  for (size_t c = 0; c < channels.size(); ++c) {
+    const Quantization& q = channels[c].quantization;
+    const Quantizer quantizer(q, channels[c].source);
+    std::byte* at = out.data() + c * sizeof(T);
+    for (int y = r.y0; y < r.y1; ++y) {
+      const float* from = image_.pixel(r.x0, y) + channels[c].source;
+      for (size_t i = 0; i < width; ++i, at += channels.size() * sizeof(T)) {
+        const float v = from[i * stride];
         T value;
-        if constexpr (std::is_same_v<T, float>)
-          value = q.is_float() ? v : static_cast<T>(quantize(v, q, x, y, c.source));
+        if (std::is_same_v<T, float> && q.is_float())
+          value = static_cast<T>(v);
         else
-          value = static_cast<T>(quantize(v, q, x, y, c.source));
+          value = static_cast<T>(quantizer(v, r.x0 + static_cast<int>(i), y));
         std::memcpy(at, &value, sizeof(T));
-        at += sizeof(T);
       }
+    }
+  }
   return out;
 }
 

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bitset>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -57,6 +58,9 @@ public:
     if (camera_.has_lens()) sampling_.lens = &camera_;
     sampling_.mask = settings.mask;
     sampling_.mask_scale = {1 / static_cast<float>(options_.xres), 1 / static_cast<float>(options_.yres)};
+    for (const AovChannel& aov : settings.aovs)
+      if (slvm::Global g = slvm::find_global(aov.name); g != slvm::Global::kCount)
+        shown_.set(static_cast<size_t>(g));
     threads_ = thread_count(settings.threads);
     image_ = Image(image_rect(camera_.crop()), static_cast<int>(sampling_.aov_floats()));
   }
@@ -101,6 +105,7 @@ private:
   const FrameSettings& settings_;
   Camera camera_;
   SamplingSettings sampling_;
+  std::bitset<slvm::kGlobalCount> shown_; ///< predefined variables that displays ask for
   int threads_;
   Image image_;
   SplitSettings split_;
@@ -298,14 +303,16 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
                       options_.shutter_close - options_.shutter_open};
   slvm::Grid& grid = worker.grid;
   std::span<const Primitive> pieces = batch.primitives.subspan(task.primitive, task.pieces);
-  dice(pieces, task, id, context, grid);
+  const Attributes& a = primitive.attributes();
+  ReadVariables read{worker.shader->reads(primitive) | shown_, {}};
+  if (a.sides == 1) read.predefined.set(static_cast<size_t>(slvm::Global::kNg)); // for faces_away()
+  dice(pieces, task, id, context, read, grid);
   auto started = std::chrono::steady_clock::now();
   std::optional<GridOutline> outline;
   if (!primitive.geometry->ruled() && primitive.attributes().stitch && pieces.size() == 1)
     outline = find_outline(grid, task.rect, camera_, task.step);
   if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
   std::vector<float> times = motion_times(primitive);
-  const Attributes& a = primitive.attributes();
   const SolidTree* solid = primitive.state->solid.get();
   if (times.empty() && a.sides == 1 && a.cull_backfacing && a.back_face_tolerance == 0 && !solid &&
       faces_away(grid, camera_))
@@ -316,7 +323,7 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
     for (const Primitive& piece : pieces)
       there.push_back(primitive_at(piece, times[i]));
     slvm::Grid& later = moved.emplace_back(2, 2);
-    dice(there, task, id, context, later);
+    dice(there, task, id, context, read, later);
     worker.shader->displace(there.front(), later);
   }
   if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);

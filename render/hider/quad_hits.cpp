@@ -1,10 +1,11 @@
-// Edge functions (Pineda, 1988) in lanes of samples.
+// Lists of the samples that a micropolygon covers.
 #include "render/hider/quad_hits.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/hider/quad_hits.cpp"
 #include <hwy/foreach_target.h>
 
+#include "render/hider/quad_coverage.h"
 #include "slvm/wide/targets.h"
 
 #include <hwy/highway.h>
@@ -15,65 +16,18 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-// Micropolygons are small: of wider vectors most lanes would lie beyond them.
-constexpr hn::CappedTag<float, 8> kWide;
-constexpr hn::RebindToSigned<decltype(kWide)> kIndices;
-constexpr size_t kLanes = hn::MaxLanes(kWide);
-using V = hn::Vec<decltype(kWide)>;
-using I = hn::Vec<decltype(kIndices)>;
-using M = hn::Mask<decltype(kWide)>;
-
-struct WideVec2 {
-  V x, y;
-};
-
-/// Twice the signed area of a, b, p, computed the same way for b, a, p, so that of two triangles that share
-/// an edge exactly one contains a sample on or near it.
-struct WideEdge {
-  WideVec2 a, d;
-  M swapped;
-  HWY_INLINE WideEdge(const WideVec2& from, const WideVec2& to) {
-    swapped = hn::Or(hn::Lt(to.x, from.x), hn::And(hn::Eq(to.x, from.x), hn::Lt(to.y, from.y)));
-    a = {hn::IfThenElse(swapped, to.x, from.x), hn::IfThenElse(swapped, to.y, from.y)};
-    d = {hn::Sub(hn::IfThenElse(swapped, from.x, to.x), a.x),
-         hn::Sub(hn::IfThenElse(swapped, from.y, to.y), a.y)};
-  }
-  HWY_INLINE V value(const WideVec2& p) const {
-    return hn::Sub(hn::Mul(d.x, hn::Sub(p.y, a.y)), hn::Mul(d.y, hn::Sub(p.x, a.x)));
-  }
-  HWY_INLINE M left(V value) const { return hn::Xor(hn::Ge(value, hn::Zero(kWide)), swapped); }
-};
-
-/// Corners a, b, c, d; as many micropolygons as lanes, or one in all of them.
-struct WideQuad {
-  WideVec2 p[4];
-  V z[4];
-  WideEdge ab, bd, da, dc, ca;
-  HWY_INLINE WideQuad(const WideVec2 (&at)[4], const V (&depth)[4])
-      : p{at[0], at[1], at[2], at[3]}, z{depth[0], depth[1], depth[2], depth[3]}, ab(p[0], p[1]),
-        bd(p[1], p[3]), da(p[3], p[0]), dc(p[3], p[2]), ca(p[2], p[0]) {}
-};
-
 class Finder {
 public:
   HWY_INLINE Finder(bool both, const float* limit, QuadHit* out)
       : both_(both), limit_(limit), begin_(out), out_(out) {}
   size_t count() const { return static_cast<size_t>(out_ - begin_); }
 
-  /// Samples at `at`, of those the ones in `in_box`. `samples`: their numbers.
-  HWY_INLINE void find(const WideQuad& q, const WideVec2& at, M in_box, I samples) {
-    V diagonal = q.da.value(at), a = q.ab.value(at), b = q.bd.value(at), d = q.dc.value(at),
-      c = q.ca.value(at);
-    M side = q.da.left(diagonal);
-    M first = hn::AndNot(hn::Or(hn::Xor(q.ab.left(a), side), hn::Xor(q.bd.left(b), side)), in_box);
-    M second = hn::And(hn::And(hn::Xor(q.dc.left(d), side), hn::Xor(q.ca.left(c), side)), in_box);
-    if (!both_) second = hn::AndNot(first, second);
-    if (!hn::AllFalse(kWide, first))
-      add(first, samples, QuadPart::kFirst, {b, diagonal, a}, {q.z[0], q.z[1], q.z[3]});
+  HWY_INLINE void add(const WideQuad& q, const WideCoverage& in, I samples) {
+    M second = both_ ? in.second : hn::AndNot(in.first, in.second);
+    if (!hn::AllFalse(kWide, in.first))
+      add(in.first, samples, QuadPart::kFirst, {in.bd, in.diagonal, in.ab}, {q.z[0], q.z[1], q.z[3]});
     if (!hn::AllFalse(kWide, second))
-      add(second, samples, QuadPart::kSecond, {d, c, diagonal}, {q.z[0], q.z[3], q.z[2]});
+      add(second, samples, QuadPart::kSecond, {in.dc, in.ca, in.diagonal}, {q.z[0], q.z[3], q.z[2]});
   }
 
 private:
@@ -117,73 +71,12 @@ private:
   QuadHit *begin_, *out_;
 };
 
-struct WideBox {
-  WideVec2 low, high;
-  HWY_INLINE WideBox(Vec2 from, Vec2 to)
-      : low{hn::Set(kWide, from.x), hn::Set(kWide, from.y)}, high{hn::Set(kWide, to.x),
-                                                                  hn::Set(kWide, to.y)} {}
-  HWY_INLINE M contains(const WideVec2& p) const {
-    return hn::And(hn::And(hn::Ge(p.x, low.x), hn::Le(p.x, high.x)),
-                   hn::And(hn::Ge(p.y, low.y), hn::Le(p.y, high.y)));
-  }
-};
-
-#if HWY_TARGET != HWY_SCALAR
-constexpr hn::Half<decltype(kWide)> kHalf;
-constexpr size_t kHalfLanes = hn::MaxLanes(kHalf);
-
-/// For windows so narrow that two rows fit into a vector, as those of most micropolygons are.
-HWY_INLINE void find_in_pairs_of_rows(const WideQuad& quad, const WideBox& box, const SampleField& field,
-                                      const SampleWindow& window, Finder& finder) {
-  const size_t columns = window.i1 - window.i0;
-  constexpr auto kRow = static_cast<int32_t>(kHalfLanes);
-  const I lanes = hn::Iota(kIndices, 0), upper = hn::Set(kIndices, kRow - 1);
-  const auto in_upper = hn::Gt(lanes, upper);
-  const I column = hn::Sub(lanes, hn::IfThenElseZero(in_upper, hn::Set(kIndices, kRow)));
-  const auto in_window = hn::Lt(column, hn::Set(kIndices, static_cast<int32_t>(columns)));
-  const I offset =
-      hn::Add(column, hn::IfThenElseZero(in_upper, hn::Set(kIndices, static_cast<int32_t>(field.width))));
-  for (size_t j = window.j0; j < window.j1; j += 2) {
-    const bool two = j + 1 < window.j1;
-    const size_t k = j * field.width + window.i0, next = two ? k + field.width : k;
-    auto rows = [&](const float* of) {
-      return hn::Combine(kWide, hn::LoadU(kHalf, of + next), hn::LoadU(kHalf, of + k));
-    };
-    const WideVec2 at{rows(field.x), rows(field.y)};
-    M looked_at = hn::And(box.contains(at), hn::RebindMask(kWide, in_window));
-    if (!two) looked_at = hn::And(looked_at, hn::FirstN(kWide, kHalfLanes));
-    if (hn::AllFalse(kWide, looked_at)) continue;
-    finder.find(quad, at, looked_at, hn::Add(hn::Set(kIndices, static_cast<int32_t>(k)), offset));
-  }
-}
-#endif
-
 size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const SampleWindow& window,
                   QuadHit* hits) {
-  WideBox box(glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3]))),
-              glm::max(glm::max(Vec2(p[0]), Vec2(p[1])), glm::max(Vec2(p[2]), Vec2(p[3]))));
-  WideVec2 corners[4];
-  V depths[4];
-  for (size_t c = 0; c < 4; ++c) {
-    corners[c] = {hn::Set(kWide, p[c].x), hn::Set(kWide, p[c].y)};
-    depths[c] = hn::Set(kWide, p[c].z);
-  }
-  WideQuad quad(corners, depths);
   Finder finder(both, field.limit, hits);
-#if HWY_TARGET != HWY_SCALAR
-  if (window.i1 - window.i0 <= kHalfLanes) {
-    find_in_pairs_of_rows(quad, box, field, window, finder);
-    return finder.count();
-  }
-#endif
-  for (size_t j = window.j0; j < window.j1; ++j)
-    for (size_t i = window.i0; i < window.i1; i += hn::Lanes(kWide)) {
-      size_t k = j * field.width + i;
-      WideVec2 at{hn::LoadU(kWide, field.x + k), hn::LoadU(kWide, field.y + k)};
-      M in_box = hn::And(box.contains(at), hn::FirstN(kWide, window.i1 - i));
-      if (hn::AllFalse(kWide, in_box)) continue;
-      finder.find(quad, at, in_box, hn::Iota(kIndices, static_cast<int32_t>(k)));
-    }
+  for_covered(p, field.x, field.y, field.width, window,
+              [&](const auto& rows, const WideQuad& quad, const WideCoverage& covered)
+                  HWY_ATTR { finder.add(quad, covered, rows.numbers()); });
   return finder.count();
 }
 
@@ -209,19 +102,19 @@ size_t find_moving(const MovingQuad& q, bool both, const SampleField& field, con
         I pairs = hn::ShiftLeft<1>(samples);
         shift = {hn::GatherIndex(kWide, lens, pairs), hn::GatherIndex(kWide, lens + 1, pairs)};
       }
-      WideVec2 corners[4];
-      V depths[4];
+      WideQuad quad;
       for (size_t c = 0; c < 4; ++c) {
         Vec3 from = q.from[c], speed = (q.to[c] - from) * rate;
-        corners[c] = {hn::Add(hn::Set(kWide, from.x), hn::Mul(hn::Set(kWide, speed.x), time)),
-                      hn::Add(hn::Set(kWide, from.y), hn::Mul(hn::Set(kWide, speed.y), time))};
-        depths[c] = hn::Add(hn::Set(kWide, from.z), hn::Mul(hn::Set(kWide, speed.z), time));
+        WideVec2& p = quad.p[c];
+        p = {hn::Add(hn::Set(kWide, from.x), hn::Mul(hn::Set(kWide, speed.x), time)),
+             hn::Add(hn::Set(kWide, from.y), hn::Mul(hn::Set(kWide, speed.y), time))};
+        quad.z[c] = hn::Add(hn::Set(kWide, from.z), hn::Mul(hn::Set(kWide, speed.z), time));
         if (!lens) continue;
-        V defocus = hn::Sub(focus, hn::Div(one, depths[c]));
-        corners[c].x = hn::Add(corners[c].x, hn::Mul(shift.x, defocus));
-        corners[c].y = hn::Add(corners[c].y, hn::Mul(shift.y, defocus));
+        V defocus = hn::Sub(focus, hn::Div(one, quad.z[c]));
+        p.x = hn::Add(p.x, hn::Mul(shift.x, defocus));
+        p.y = hn::Add(p.y, hn::Mul(shift.y, defocus));
       }
-      finder.find(WideQuad(corners, depths), at, looked_at, samples);
+      finder.add(quad, quad.cover(at, looked_at), samples);
     }
   return finder.count();
 }

@@ -1,6 +1,7 @@
 // Which samples a micropolygon covers, as many at a time as the processor has lanes.
 #pragma once
 
+#include "render/hider/sample_window.h"
 #include "render/state/math.h"
 
 #include <cstddef>
@@ -29,13 +30,6 @@ struct SampleField {
   const float* time = nullptr; ///< part of the shutter time; only for moving_hits
   const Vec2* lens = nullptr;  ///< shift on the raster of what has a defocus of 1; null: no lens
   float focus = 0;             ///< 1 / focal distance
-};
-
-/// Where to look: columns [i0, i1) and rows [j0, j1).
-struct SampleWindow {
-  size_t i0, i1, j0, j1;
-
-  size_t count() const { return (i1 - i0) * (j1 - j0); }
 };
 
 /// Raster x and y, camera z of the corners at two parts of the shutter time; in a straight line between.

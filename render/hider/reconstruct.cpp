@@ -13,13 +13,6 @@ int margin(float width) {
   return std::max(0, static_cast<int>(std::ceil(width / 2 - 0.5f)));
 }
 
-/// The cells, of `density` a pixel, that have points less than half a width from `centre`.
-void reach(float centre, float width, int density, int cells, size_t& from, size_t& to) {
-  auto d = static_cast<float>(density);
-  from = static_cast<size_t>(std::max(0.0f, (centre - width / 2) * d));
-  to = static_cast<size_t>(std::clamp(std::ceil((centre + width / 2) * d), 0.0f, static_cast<float>(cells)));
-}
-
 /// What holds all of the rows from j0 to before j1.
 SampleSpan filled(const BucketSamples& samples, size_t j0, size_t j1) {
   SampleSpan out;
@@ -32,36 +25,33 @@ SampleSpan filled(const BucketSamples& samples, size_t j0, size_t j1) {
 
 Reconstructor::Reconstructor(const ReconstructionSettings& settings, const SampleGridSize& size)
     : settings_(settings), size_(size) {
-  plans_.push_back({settings_.filter, WindowWeights(settings_.filter), {}});
+  Plan& standard = plans_.emplace_back(settings_.filter, WindowWeights(settings_.filter, size_));
+  // Depths are not blended.
+  for (size_t c = 0; c < Image::kZ; ++c)
+    standard.terms.push_back({c, c});
   plan_aovs();
 }
 
 void Reconstructor::plan_aovs() {
-  constexpr size_t kStride = sizeof(SampleResult) / sizeof(float);
   using Source = AovChannel::Source;
   for (const AovChannel& a : settings_.aovs) {
-    Term term{false, 0, kStride, a.components, Image::kAov + a.first};
+    const auto channel = static_cast<size_t>(Image::kAov + a.first);
+    size_t plane = channel;
     switch (a.source) {
-    case Source::kVariable:
-      term.variable = true;
-      term.first = static_cast<size_t>(a.first);
-      term.stride = settings_.aov_floats();
-      break;
-    case Source::kColor: term.first = Image::kCi; break;
-    case Source::kOpacity: term.first = Image::kOi; break;
-    case Source::kAlpha: term.first = Image::kAlpha; break;
-    case Source::kDepth:
-      if (!settings_.subpixel) continue; // depths are not blended
-      term.first = Image::kZ;
-      break;
+    case Source::kVariable: break;
+    case Source::kColor: plane = Image::kCi; break;
+    case Source::kOpacity: plane = Image::kOi; break;
+    case Source::kAlpha: plane = Image::kAlpha; break;
+    case Source::kDepth: continue;
     }
     const PixelFilter& f = a.filter ? *a.filter : settings_.filter;
     auto same = [&](const Plan& p) {
       return p.filter.kind == f.kind && p.filter.xwidth == f.xwidth && p.filter.ywidth == f.ywidth;
     };
     auto plan = std::find_if(plans_.begin(), plans_.end(), same);
-    if (plan == plans_.end()) plan = plans_.insert(plan, {f, WindowWeights(f), {}});
-    plan->terms.push_back(term);
+    if (plan == plans_.end()) plan = plans_.insert(plan, {f, WindowWeights(f, size_), {}});
+    for (size_t c = 0; c < static_cast<size_t>(a.components); ++c)
+      plan->terms.push_back({plane + c, channel + c});
   }
 }
 
@@ -70,85 +60,77 @@ void Reconstructor::run(const BucketSamples& samples, Image& image) {
     copy_samples(samples, image);
     return;
   }
-  clear(settings_, samples.rect, image);
-  filter<true>(plans_[0], samples, image);
-  for (size_t i = 1; i < plans_.size(); ++i)
-    filter<false>(plans_[i], samples, image);
+  for (Plan& plan : plans_)
+    filter(plan, samples, image);
   set_depths(samples, image);
 }
 
-template <bool standard>
-void Reconstructor::filter(Plan& plan, const BucketSamples& samples, Image& image) const {
-  const PixelFilter& filter = plan.filter;
-  const PixelRect &rect = samples.rect, &covered = samples.covered;
-  const SamplePattern& pattern = samples.pattern;
-  auto width = static_cast<size_t>(pattern.width());
-  SampleWindow window;
+void Reconstructor::filter(Plan& plan, const BucketSamples& samples, Image& image) {
+  // What several channels share, such as the coverage of what is opaque, is summed once.
+  sources_.clear();
+  source_of_.clear();
+  for (const Term& t : plan.terms) {
+    auto source = std::find(sources_.begin(), sources_.end(), samples.planes[t.plane]);
+    source_of_.push_back(static_cast<size_t>(source - sources_.begin()));
+    if (source == sources_.end()) sources_.push_back(samples.planes[t.plane]);
+  }
+  while (sources_.size() % FilterWindow::kLanes != 0)
+    sources_.push_back(sources_[0]);
+  means_.resize(sources_.size());
+  const PixelRect& rect = samples.rect;
+  const FilterWindow& window = plan.weights.window();
+  const auto width = static_cast<std::ptrdiff_t>(samples.pattern.width());
   for (int y = rect.y0; y < rect.y1; ++y) {
-    float cy = static_cast<float>(y) + 0.5f;
-    reach(cy - static_cast<float>(covered.y0), filter.ywidth, size_.ysamples, pattern.height(), window.j0,
-          window.j1);
-    const SampleSpan any = filled(samples, window.j0, window.j1);
+    const std::ptrdiff_t row = (y - samples.covered.y0) * size_.ysamples + window.j0;
+    const SampleSpan any =
+        filled(samples, static_cast<size_t>(row), static_cast<size_t>(row) + window.rows());
     for (int x = rect.x0; x < rect.x1; ++x) {
-      float cx = static_cast<float>(x) + 0.5f;
-      reach(cx - static_cast<float>(covered.x0), filter.xwidth, size_.xsamples, pattern.width(), window.i0,
-            window.i1);
-      if (!any.overlaps(window.i0, window.i1)) continue;
-      const float* weight = plan.weights.at({cx, cy}, pattern, window);
-      // Summed here and not in the image, to stay in registers.
-      float sum[Image::kAov] = {};
       float* p = image.pixel(x, y);
-      float total = 0;
-      for (size_t j = window.j0; j < window.j1; ++j)
-        for (size_t k = j * width + window.i0, end = j * width + window.i1; k < end; ++k, ++weight) {
-          float w = *weight;
-          total += w;
-          if constexpr (standard)
-            for (int c = 0; c < Image::kAov; ++c)
-              sum[c] += w * samples.results[k].channels[c];
-          for (const Term& t : plan.terms)
-            for (int c = 0; c < t.count; ++c)
-              p[t.to + c] += w * t.in(samples)[k * t.stride + static_cast<size_t>(c)];
-        }
-      // A filter so narrow that it missed all samples: the plain mean of the pixel.
-      if (total == 0) {
-        plain_mean<standard>(plan, samples, x, y, p);
+      const std::ptrdiff_t column = (x - samples.covered.x0) * size_.xsamples + window.i0;
+      if (!any.overlaps(static_cast<size_t>(column), static_cast<size_t>(column) + window.columns())) {
+        for (const Term& t : plan.terms)
+          p[t.channel] = 0;
         continue;
       }
-      for (int c = 0; standard && c < Image::kAov; ++c)
-        p[c] = sum[c] / total;
-      for (const Term& t : plan.terms)
-        for (int c = 0; c < t.count; ++c)
-          p[t.to + c] /= total;
+      const float* weights = plan.weights.at(x, y, samples.pattern);
+      // A filter so narrow that it missed all samples: the plain mean of the pixel.
+      if (plan.weights.missed_all(weights)) {
+        plain_mean(plan, samples, x, y, p);
+        continue;
+      }
+      plan.weights.means(sources_, static_cast<size_t>(row * width + column), static_cast<size_t>(width),
+                         weights, means_.data());
+      for (size_t t = 0; t < plan.terms.size(); ++t)
+        p[plan.terms[t].channel] = means_[source_of_[t]];
     }
   }
 }
 
-template <bool standard>
 void Reconstructor::plain_mean(const Plan& plan, const BucketSamples& samples, int x, int y,
                                float* pixel) const {
-  float w = 1 / static_cast<float>(size_.xsamples * size_.ysamples);
-  std::fill_n(pixel, standard ? Image::kAov : 0, 0.0f);
-  for (int j = 0; j < size_.ysamples; ++j)
-    for (int i = 0; i < size_.xsamples; ++i) {
-      size_t k = sample(samples, x, y, i, j);
-      for (int c = 0; standard && c < Image::kAov; ++c)
-        pixel[c] += w * samples.results[k].channels[c];
-      for (const Term& t : plan.terms)
-        for (int c = 0; c < t.count; ++c)
-          pixel[t.to + c] += w * t.in(samples)[k * t.stride + static_cast<size_t>(c)];
-    }
+  const auto width = static_cast<size_t>(samples.pattern.width());
+  const auto columns = static_cast<size_t>(size_.xsamples), rows = static_cast<size_t>(size_.ysamples);
+  for (const Term& t : plan.terms) {
+    const float* first = samples.planes[t.plane] + sample(samples, x, y);
+    float sum = 0;
+    for (size_t j = 0; j < rows; ++j)
+      for (size_t i = 0; i < columns; ++i)
+        sum += first[j * width + i];
+    pixel[t.channel] = sum / static_cast<float>(rows * columns);
+  }
 }
 
 void Reconstructor::set_depths(const BucketSamples& samples, Image& image) const {
   const PixelRect& rect = samples.rect;
+  const auto width = static_cast<size_t>(samples.pattern.width());
   auto columns = static_cast<size_t>(size_.xsamples), rows = static_cast<size_t>(size_.ysamples);
   for (int y = rect.y0; y < rect.y1; ++y) {
     size_t row = static_cast<size_t>(y - samples.covered.y0) * rows;
     const SampleSpan any = filled(samples, row, row + rows);
     for (int x = rect.x0; x < rect.x1; ++x) {
       size_t column = static_cast<size_t>(x - samples.covered.x0) * columns;
-      float z = any.overlaps(column, column + columns) ? depth(samples, x, y) : Image::kEmptyDepth;
+      const float* first = samples.planes[Image::kZ] + row * width + column;
+      float z = any.overlaps(column, column + columns) ? depth(first, width) : Image::kEmptyDepth;
       float* p = image.pixel(x, y);
       p[Image::kZ] = z;
       for (const AovChannel& a : settings_.aovs)
@@ -157,40 +139,50 @@ void Reconstructor::set_depths(const BucketSamples& samples, Image& image) const
   }
 }
 
-/// From the pixel's own samples: those without a surface do not count unless all are so.
-float Reconstructor::depth(const BucketSamples& samples, int x, int y) const {
-  bool farthest = settings_.depth_filter == DepthFilter::kMax;
-  bool mean = settings_.depth_filter == DepthFilter::kAverage;
-  float best = kInfinity, most = -kInfinity;
-  double sum = 0;
-  int count = 0;
-  for (int j = 0; j < size_.ysamples; ++j)
-    for (int i = 0; i < size_.xsamples; ++i) {
-      float z = samples.results[sample(samples, x, y, i, j)].channels[Image::kZ];
-      if (z == kInfinity) continue;
-      best = std::min(best, z);
-      most = std::max(most, z);
-      sum += static_cast<double>(z);
+/// From the pixel's own samples, the first at `z`: those without a surface do not count unless all are so.
+float Reconstructor::depth(const float* z, size_t width) const {
+  const auto columns = static_cast<size_t>(size_.xsamples), rows = static_cast<size_t>(size_.ysamples);
+  auto for_each = [&](auto&& f) {
+    for (size_t j = 0; j < rows; ++j)
+      for (size_t i = 0; i < columns; ++i)
+        f(z[j * width + i]);
+  };
+  float best = kInfinity;
+  for_each([&](float at) { best = std::min(best, at); });
+  if (best == kInfinity) return Image::kEmptyDepth;
+  if (settings_.depth_filter == DepthFilter::kMax) {
+    float most = -kInfinity;
+    for_each([&](float at) { most = at == kInfinity ? most : std::max(most, at); });
+    return most;
+  }
+  if (settings_.depth_filter == DepthFilter::kAverage) {
+    double sum = 0;
+    int count = 0;
+    for_each([&](float at) {
+      if (at == kInfinity) return;
+      sum += static_cast<double>(at);
       ++count;
-    }
-  if (count == 0) return Image::kEmptyDepth;
-  if (mean) return static_cast<float>(sum / count);
-  return farthest ? most : best;
+    });
+    return static_cast<float>(sum / count);
+  }
+  return best;
 }
 
 void Reconstructor::copy_samples(const BucketSamples& samples, Image& image) const {
   const PixelRect& rect = samples.rect;
+  const auto width = static_cast<size_t>(samples.pattern.width());
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x)
       for (int j = 0; j < size_.ysamples; ++j)
         for (int i = 0; i < size_.xsamples; ++i) {
-          size_t k = sample(samples, x, y, i, j);
+          size_t k = sample(samples, x, y) + static_cast<size_t>(j) * width + static_cast<size_t>(i);
           float* p = image.pixel(x * size_.xsamples + i, y * size_.ysamples + j);
-          std::copy_n(samples.results[k].channels, Image::kAov, p);
           for (const Plan& plan : plans_)
             for (const Term& t : plan.terms)
-              std::copy_n(t.in(samples) + k * t.stride, t.count, p + t.to);
-          p[Image::kZ] = std::min(samples.results[k].channels[Image::kZ], Image::kEmptyDepth);
+              p[t.channel] = samples.planes[t.plane][k];
+          p[Image::kZ] = std::min(samples.planes[Image::kZ][k], Image::kEmptyDepth);
+          for (const AovChannel& a : settings_.aovs)
+            if (a.source == AovChannel::Source::kDepth) p[Image::kAov + a.first] = p[Image::kZ];
         }
 }
 

@@ -12,21 +12,6 @@
 
 namespace render {
 
-/// What a sample comes to: the first channels of an image. z: infinite where nothing is.
-struct SampleResult {
-  float channels[Image::kAov] = {0, 0, 0, 0, 0, 0, 0, kInfinity};
-
-  Color Ci() const { return {channels[Image::kCi], channels[Image::kCi + 1], channels[Image::kCi + 2]}; }
-  Color Oi() const { return {channels[Image::kOi], channels[Image::kOi + 1], channels[Image::kOi + 2]}; }
-  void set_colours(const Color& C, const Color& O) {
-    for (int c = 0; c < 3; ++c) {
-      channels[Image::kCi + c] = C[c];
-      channels[Image::kOi + c] = O[c];
-    }
-    channels[Image::kAlpha] = (O.x + O.y + O.z) / 3;
-  }
-};
-
 struct ReconstructionSettings {
   PixelFilter filter;
   DepthFilter depth_filter = DepthFilter::kMin;
@@ -55,8 +40,9 @@ struct BucketSamples {
   PixelRect rect;    ///< the bucket's pixels
   PixelRect covered; ///< and those whose samples these are
   const SamplePattern& pattern;
-  std::span<const SampleResult> results;
-  std::span<const float> aov;
+  /// For each channel of an image the plane of the samples' values, SamplePattern::kPadding longer than there
+  /// are samples; several channels may share one. z: infinite where nothing is.
+  std::span<const float* const> planes;
   std::span<const SampleSpan> filled; ///< for each row: outside there is nothing
 };
 
@@ -68,14 +54,9 @@ public:
   void run(const BucketSamples& samples, Image& image);
 
 private:
-  /// Values that go through one filter: where they are among those of a sample, and where in a pixel.
+  /// A plane that goes through a filter, and the channel of the image that gets it.
   struct Term {
-    bool variable; ///< of `aov`, else of `results`
-    size_t first, stride;
-    int count, to;
-    const float* in(const BucketSamples& s) const {
-      return (variable ? s.aov.data() : s.results[0].channels) + first;
-    }
+    size_t plane, channel;
   };
   struct Plan {
     PixelFilter filter;
@@ -83,24 +64,24 @@ private:
     std::vector<Term> terms;
   };
   void plan_aovs();
-  /// `standard`: the image's first channels, too. That of z is written over later.
-  template <bool standard> void filter(Plan& plan, const BucketSamples& samples, Image& image) const;
-  template <bool standard>
+  void filter(Plan& plan, const BucketSamples& samples, Image& image);
   void plain_mean(const Plan& plan, const BucketSamples& samples, int x, int y, float* pixel) const;
   void set_depths(const BucketSamples& samples, Image& image) const;
-  float depth(const BucketSamples& samples, int x, int y) const;
+  float depth(const float* z, size_t width) const;
   void copy_samples(const BucketSamples& samples, Image& image) const;
-  /// The number of the sample of column i and row j of a pixel.
-  size_t sample(const BucketSamples& samples, int x, int y, int i, int j) const {
-    int row = (y - samples.covered.y0) * size_.ysamples + j,
-        column = (x - samples.covered.x0) * size_.xsamples + i;
-    return static_cast<size_t>(row) * static_cast<size_t>(samples.pattern.width()) +
-           static_cast<size_t>(column);
+  /// The number of the pixel's first sample.
+  size_t sample(const BucketSamples& samples, int x, int y) const {
+    auto row = static_cast<size_t>((y - samples.covered.y0) * size_.ysamples),
+         column = static_cast<size_t>((x - samples.covered.x0) * size_.xsamples);
+    return row * static_cast<size_t>(samples.pattern.width()) + column;
   }
 
   ReconstructionSettings settings_;
   SampleGridSize size_;
-  std::vector<Plan> plans_; ///< the first is that of the standard channels
+  std::vector<Plan> plans_;           ///< the first is that of the standard channels
+  std::vector<const float*> sources_; ///< the planes of a plan, each once, and what fills up a vector
+  std::vector<size_t> source_of_;     ///< for each term
+  std::vector<float> means_;          ///< for each source
 };
 
 /// The image's pixels of `rect`, which are samples with "subpixel", where nothing is.

@@ -44,7 +44,7 @@ SampleBuffer::SampleBuffer(const SamplingSettings& settings)
     : settings_(settings), pattern_(settings.size, settings.moving, settings.lens != nullptr),
       reconstructor_(settings.reconstruction, settings.size),
       density_(static_cast<float>(settings.size.xsamples), static_cast<float>(settings.size.ysamples)),
-      aovs_(settings.aov_floats()),
+      planes_(Image::kAov + settings.aov_floats()), aovs_(settings.aov_floats()),
       midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {
   for (int s = 0; settings_.lens && s < pattern_.strata(); ++s) {
     auto [low, high] = pattern_.lens_box(s);
@@ -64,11 +64,11 @@ void SampleBuffer::begin(PixelRect rect) {
   origin_ = {static_cast<float>(covered_.x0), static_cast<float>(covered_.y0)};
   open_ = pattern_.count();
   farthest_known_ = false;
-  samples_.resize(open_); // what nothing is drawn to is cleared at the end
-  layers_.assign(open_, {});
-  z_.assign(open_ + SampleField::kPadding, kInfinity);
+  for (size_t c = 0; c < planes_.size(); ++c) // opacities: see make_layers()
+    if (c < Image::kOi || c > Image::kAlpha)
+      planes_[c].assign(open_ + SampleField::kPadding, c == Image::kZ ? kInfinity : 0.0f);
   if (midpoint_) second_.assign(open_ + SampleField::kPadding, kInfinity);
-  sample_aov_.assign(open_ * aovs_, 0.0f);
+  plain_ = true;
   fragments_.clear();
   fragment_aov_.clear();
   lens_.clear();
@@ -81,6 +81,11 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
     resolve_solid();
     solid_ = grid.solid;
   }
+  if (can_paint(grid)) {
+    paint_grid(grid);
+    return;
+  }
+  make_layers();
   auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
   bool moving = settings_.lens || !grid.times.empty();
   for (size_t j = 0, m = 0; j + 1 < nv; ++j) {
@@ -98,25 +103,45 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
   }
 }
 
+bool SampleBuffer::can_paint(const ShadedGrid& grid) const {
+  return grid.opaque && grid.times.empty() && !grid.solid && !grid.matte && grid.level.whole() &&
+         !settings_.lens && !settings_.mask && settings_.clipping_planes.empty() && !midpoint_;
+}
+
+void SampleBuffer::paint_grid(const ShadedGrid& grid) {
+  static constexpr float kOne = 1, kZero = 0;
+  auto planes = [&](size_t first, size_t count) {
+    std::vector<float*> out;
+    for (size_t c = first; c < first + count; ++c)
+      out.push_back(planes_[c].data());
+    return out;
+  };
+  std::vector<PaintedValues> values{{&grid.Ci[0].x, 3, planes(Image::kCi, 3)}};
+  if (aovs_ > 0) values.push_back({grid.aov.data(), aovs_, planes(Image::kAov, aovs_)});
+  if (!plain_)
+    for (float* plane : planes(Image::kOi, 3))
+      values.push_back({&kOne, 0, {plane}});
+  if (!plain_) values.push_back({&kZero, 0, {matte_.data()}});
+  const SampleCanvas canvas{covered_,        pattern_.width(),     pattern_.height(),
+                            density_,        pattern_.x(),         pattern_.y(),
+                            depths().data(), settings_.near_plane, settings_.far_plane};
+  open_ -= paint(grid, values, canvas);
+  farthest_known_ = false;
+}
+
+void SampleBuffer::make_layers() {
+  if (!plain_) return;
+  plain_ = false;
+  for (int c = Image::kOi; c <= Image::kAlpha; ++c)
+    planes_[c].assign(depths().size(), 1.0f);
+  matte_.assign(depths().size(), 0.0f);
+  fragments_of_.assign(pattern_.count(), kNone);
+}
+
 namespace {
 
 /// For the rounding of moved corners, in pixels.
 constexpr float kSlack = 1e-3f;
-
-/// The whole numbers from `from` to `to`, both included, that are below `size`.
-void cells(float from, float to, int size, size_t& begin, size_t& end) {
-  // What is clamped at 0 is cut off like floor().
-  auto limit = static_cast<float>(size);
-  begin = static_cast<size_t>(std::clamp(from, 0.0f, limit));
-  end = to < 0 ? 0 : static_cast<size_t>(std::min(to + 1, limit));
-}
-
-/// The cells of `size`, in columns and rows, that the rectangle from `low` to `high` touches. False: none.
-bool find_window(Vec2 low, Vec2 high, int columns, int rows, SampleWindow& window) {
-  cells(low.x, high.x, columns, window.i0, window.i1);
-  cells(low.y, high.y, rows, window.j0, window.j1);
-  return window.i0 < window.i1 && window.j0 < window.j1;
-}
 
 } // namespace
 
@@ -258,6 +283,20 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
       grid.matte, variables_of(grid, corners, weights));
 }
 
+Color SampleBuffer::colour(size_t index, int channel) const {
+  return {planes_[channel][index], planes_[channel + 1][index], planes_[channel + 2][index]};
+}
+
+void SampleBuffer::set_colour(size_t index, int channel, const Color& c) {
+  for (int i = 0; i < 3; ++i)
+    planes_[channel + i][index] = c[i];
+}
+
+void SampleBuffer::set_aov(size_t index, const float* values) {
+  for (size_t k = 0; k < aovs_; ++k)
+    planes_[Image::kAov + k][index] = values[k];
+}
+
 /// The variables of displays, as colour_of(). Valid until the next call.
 const float* SampleBuffer::variables_of(const ShadedGrid& grid, const size_t (&corners)[3],
                                         const float (&weights)[3]) {
@@ -296,8 +335,7 @@ void SampleBuffer::resolve_solid() {
 
 void SampleBuffer::add(size_t index, const Color& Ci, const Color& Oi, float z, bool matte,
                        const float* aov) {
-  Layers& layers = layers_[index];
-  float& nearest = z_[index];
+  float& nearest = depths()[index];
   if (reaches(Oi, settings_.opacity_threshold)) {
     farthest_known_ = false;
     float& limit = limits()[index];
@@ -307,23 +345,24 @@ void SampleBuffer::add(size_t index, const Color& Ci, const Color& Oi, float z, 
     if (in_front) nearest = z;
     if (was_open && limit < kInfinity) --open_;
     if (!in_front) return;
-    samples_[index].set_colours(Ci, Oi);
-    layers.matte = matte;
-    std::copy_n(aov, aovs_, sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_));
+    set_colour(index, Image::kCi, Ci);
+    set_colour(index, Image::kOi, Oi);
+    matte_[index] = matte ? 1.0f : 0.0f;
+    set_aov(index, aov);
     return;
   }
   if (z >= nearest || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
   auto order = static_cast<uint32_t>(fragments_.size());
-  fragments_.push_back({Ci, Oi, z, layers.fragments, order, matte});
+  fragments_.push_back({Ci, Oi, z, fragments_of_[index], order, matte});
   fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs_);
-  layers.fragments = order;
+  fragments_of_[index] = order;
 }
 
 float SampleBuffer::farthest() const {
   if (open_ > 0) return kInfinity;
   if (!farthest_known_) {
     farthest_ = 0;
-    for (float z : std::span(limits().data(), samples_.size()))
+    for (float z : std::span(limits().data(), pattern_.count()))
       farthest_ = std::max(farthest_, z);
     farthest_known_ = true;
   }
@@ -332,17 +371,21 @@ float SampleBuffer::farthest() const {
 
 /// Front to back: C += T Ci, T *= 1 - Oi for each component, until the opacity threshold (RISpec 3.2, 4.2).
 /// The depth is that of the first surface opaque enough to have one.
-SampleResult SampleBuffer::composite_layers(size_t index) {
-  const SampleResult& opaque = samples_[index];
-  const auto [fragments, matte_behind] = layers_[index];
-  const float nearest = z_[index];
+void SampleBuffer::composite(size_t index) {
+  const bool matte_behind = matte_[index] != 0;
+  const float nearest = depths()[index], depth_behind = opaque_depth(index);
+  if (fragments_of_[index] == kNone && !matte_behind && nearest < kInfinity) {
+    depths()[index] = depth_behind;
+    const Color O = colour(index, Image::kOi);
+    planes_[Image::kAlpha][index] = (O.x + O.y + O.z) / 3;
+    return;
+  }
   scratch_.clear();
-  for (uint32_t f = fragments; f != kNone; f = fragments_[f].next)
+  for (uint32_t f = fragments_of_[index]; f != kNone; f = fragments_[f].next)
     if (fragments_[f].z < nearest) scratch_.push_back(&fragments_[f]);
   std::sort(scratch_.begin(), scratch_.end(), [](const Fragment* a, const Fragment* b) {
     return a->z != b->z ? a->z < b->z : a->order < b->order;
   });
-  SampleResult out;
   Color C(0.0f), O(0.0f), through(1.0f);
   auto add = [&](Color Ci, Color Oi, bool matte) {
     if (!matte) {
@@ -351,57 +394,80 @@ SampleResult SampleBuffer::composite_layers(size_t index) {
     }
     through *= Color(1.0f) - Oi;
   };
-  auto own_aov = sample_aov_.begin() + static_cast<std::ptrdiff_t>(index * aovs_);
+  float depth = kInfinity;
   bool seen = false, closed = false;
   for (const Fragment* f : scratch_) {
     if (!seen && !f->matte) {
       seen = true;
-      std::copy_n(fragment_aov_.begin() + static_cast<std::ptrdiff_t>(f->order * aovs_), aovs_, own_aov);
+      set_aov(index, fragment_aov_.data() + f->order * aovs_);
     }
-    if (!f->matte && reaches(f->Oi, settings_.depth_threshold))
-      out.channels[Image::kZ] = std::min(out.channels[Image::kZ], f->z);
+    if (!f->matte && reaches(f->Oi, settings_.depth_threshold)) depth = std::min(depth, f->z);
     add(f->Ci, f->Oi, f->matte);
     closed = reaches(Color(1.0f) - through, settings_.opacity_threshold);
     if (closed) break;
   }
   if (!closed && nearest < kInfinity) {
-    add(opaque.Ci(), opaque.Oi(), matte_behind);
-    if (matte_behind && !seen) std::fill_n(own_aov, aovs_, 0.0f);
+    add(colour(index, Image::kCi), colour(index, Image::kOi), matte_behind);
+    if (matte_behind && !seen)
+      for (size_t k = 0; k < aovs_; ++k)
+        planes_[Image::kAov + k][index] = 0;
   }
-  if (!matte_behind) out.channels[Image::kZ] = std::min(out.channels[Image::kZ], opaque_depth(index));
-  out.set_colours(C, O);
-  return out;
+  if (!matte_behind) depth = std::min(depth, depth_behind);
+  depths()[index] = depth;
+  set_colour(index, Image::kCi, C);
+  set_colour(index, Image::kOi, O);
+  planes_[Image::kAlpha][index] = (O.x + O.y + O.z) / 3;
 }
 
 /// The depth of what is opaque; with midpoints, half way to what is behind it.
 float SampleBuffer::opaque_depth(size_t index) const {
-  float z = z_[index];
-  return midpoint_ && second_[index] < kInfinity ? 0.5f * (z + second_[index]) : z;
+  float nearest = depths()[index];
+  return midpoint_ && second_[index] < kInfinity ? 0.5f * (nearest + second_[index]) : nearest;
 }
 
-void SampleBuffer::composite_all() {
-  auto width = static_cast<size_t>(pattern_.width());
+void SampleBuffer::find_filled() {
+  const auto width = static_cast<size_t>(pattern_.width());
+  auto is_empty = [&](size_t k) { return depths()[k] == kInfinity && (plain_ || fragments_of_[k] == kNone); };
   filled_.assign(static_cast<size_t>(pattern_.height()), {});
-  size_t k = 0;
-  for (SampleSpan& row : filled_)
-    for (size_t i = 0; i < width; ++i, ++k) {
-      const Layers& layers = layers_[k];
-      if (z_[k] == kInfinity && layers.fragments == kNone) {
-        samples_[k] = {};
-        continue;
-      }
-      row.add({i, i + 1});
-      if (layers.fragments != kNone || layers.matte)
-        samples_[k] = composite_layers(k);
-      else
-        samples_[k].channels[Image::kZ] = opaque_depth(k);
-    }
+  for (size_t j = 0; j < filled_.size(); ++j) {
+    SampleSpan row{0, width};
+    while (row.begin < row.end && is_empty(j * width + row.begin))
+      ++row.begin;
+    while (row.begin < row.end && is_empty(j * width + row.end - 1))
+      --row.end;
+    filled_[j] = row;
+  }
+}
+
+/// Where there are no layers, the coverage is left to find out.
+void SampleBuffer::composite_all() {
+  if (plain_) {
+    const std::vector<float>& depth = depths();
+    std::vector<float>& alpha = planes_[Image::kAlpha];
+    alpha.resize(depth.size());
+    for (size_t k = 0; k < depth.size(); ++k)
+      alpha[k] = depth[k] < kInfinity ? 1.0f : 0.0f;
+    return;
+  }
+  for (size_t k = 0; k < pattern_.count(); ++k)
+    composite(k);
+}
+
+std::vector<const float*> SampleBuffer::planes() const {
+  std::vector<const float*> out;
+  for (const std::vector<float>& plane : planes_)
+    out.push_back(plane.data());
+  for (int c = Image::kOi; plain_ && c < Image::kAlpha; ++c)
+    out[static_cast<size_t>(c)] = out[Image::kAlpha];
+  return out;
 }
 
 void SampleBuffer::finish(Image& image) {
   resolve_solid();
+  find_filled();
   composite_all();
-  reconstructor_.run({rect_, covered_, pattern_, samples_, sample_aov_, filled_}, image);
+  const std::vector<const float*> planes = this->planes();
+  reconstructor_.run({rect_, covered_, pattern_, planes, filled_}, image);
 }
 
 } // namespace render

@@ -5,6 +5,7 @@
 #include "render/hider/depth_mask.h"
 #include "render/hider/image.h"
 #include "render/hider/quad_hits.h"
+#include "render/hider/quad_paint.h"
 #include "render/hider/reconstruct.h"
 #include "render/hider/sample_pattern.h"
 #include "render/hider/shaded_grid.h"
@@ -59,13 +60,13 @@ private:
     uint32_t order; ///< of arrival, to decide between equal depths
     bool matte;
   };
-  /// What else is known of a sample.
-  struct Layers {
-    uint32_t fragments = kNone; ///< in front of what is opaque
-    bool matte = false;         ///< the opaque surface is
-  };
   static constexpr uint32_t kNone = 0xffffffffu;
 
+  /// Whether all that the grid changes are depths and values of samples.
+  bool can_paint(const ShadedGrid& grid) const;
+  void paint_grid(const ShadedGrid& grid);
+  /// From now on samples may have surfaces that are not plainly opaque.
+  void make_layers();
   void draw_micropolygon(const ShadedGrid& grid, size_t k);
   void draw_moving(const ShadedGrid& grid, size_t k);
   void draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum);
@@ -79,27 +80,38 @@ private:
   void hit_solid(const ShadedGrid& grid, size_t index, const size_t (&corners)[3], const float (&weights)[3],
                  float z);
   /// The depths from which on a surface would not change the samples.
-  std::vector<float>& limits() { return midpoint_ ? second_ : z_; }
-  const std::vector<float>& limits() const { return midpoint_ ? second_ : z_; }
+  std::vector<float>& limits() { return midpoint_ ? second_ : depths(); }
+  const std::vector<float>& limits() const { return midpoint_ ? second_ : depths(); }
+  /// Of each sample's nearest opaque surface; infinite: none. In the end that of all surfaces.
+  std::vector<float>& depths() { return planes_[Image::kZ]; }
+  const std::vector<float>& depths() const { return planes_[Image::kZ]; }
+  Color colour(size_t index, int channel) const;
+  void set_colour(size_t index, int channel, const Color& c);
+  void set_aov(size_t index, const float* values);
   /// A surface over a sample, in front of what is opaque there.
   void add(size_t index, const Color& Ci, const Color& Oi, float z, bool matte, const float* aov);
   void resolve_solid();
   /// Left out by a clipping plane or by the depth mask.
   bool removed(size_t index, float z) const;
+  void find_filled();
   void composite_all();
-  SampleResult composite_layers(size_t index);
+  void composite(size_t index);
   float opaque_depth(size_t index) const;
+  std::vector<const float*> planes() const;
 
   SamplingSettings settings_;
   PixelRect rect_, covered_;
   Vec2 origin_{0.0f}; ///< of covered_
   SamplePattern pattern_;
   Reconstructor reconstructor_;
-  Vec2 density_;                      ///< samples a pixel
-  std::vector<SampleResult> samples_; ///< the nearest opaque surface, all but its depth; in the end all
-  std::vector<Layers> layers_;
-  std::vector<float> z_;      ///< of each sample's nearest opaque surface; infinite: none
-  std::vector<float> second_; ///< of the opaque surface behind it; for midpoints only
+  Vec2 density_; ///< samples a pixel
+  /// A plane of samples for each channel of an image: of the nearest opaque surface, in the end of all.
+  std::vector<std::vector<float>> planes_;
+  /// No sample has layers: its opacities are all 1 where it has a surface, and not in the planes.
+  bool plain_ = true;
+  std::vector<float> matte_;           ///< 1: the opaque surface is
+  std::vector<uint32_t> fragments_of_; ///< in front of what is opaque: the first, or kNone
+  std::vector<float> second_;          ///< depth of the opaque surface behind it; for midpoints only
   std::vector<QuadHit> hits_;
   std::vector<SampleSpan> filled_; ///< of each row, what holds all samples with something
   std::vector<Vec2> lens_;         ///< each sample's point of the lens, as raster shift without defocus
@@ -107,7 +119,7 @@ private:
   Box lens_box_;                   ///< and of all of them
   std::vector<Fragment> fragments_;
   size_t aovs_; ///< floats of variables for each sample
-  std::vector<float> sample_aov_, fragment_aov_;
+  std::vector<float> fragment_aov_;
   std::vector<const Fragment*> scratch_;
   std::shared_ptr<const SolidTree> solid_; ///< whose grids are being drawn
   SolidHits solid_hits_;

@@ -3,6 +3,7 @@
 
 #include "render/hider/random.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -37,7 +38,37 @@ Vec2 lens_cell_size(const SampleGridSize& size) {
 
 SamplePattern::SamplePattern(const SampleGridSize& size, bool timed, bool lens)
     : size_(size), timed_(timed || lens), with_lens_(lens), strata_(size.xsamples * size.ysamples) {
+  make_tile();
   if (lens) make_lens_boxes();
+}
+
+void SamplePattern::make_tile() {
+  // Too large for the eye to see it repeat, small enough for a cache.
+  constexpr int kPixels = 64, kSamples = 256;
+  if (size_.jitter)
+    for (period_ = kPixels; period_ > 1 && period_ * std::max(size_.xsamples, size_.ysamples) > kSamples;)
+      period_ /= 2;
+  for (int j = 0; j < period_ * size_.ysamples; ++j)
+    for (int i = 0; i < period_ * size_.xsamples; ++i) {
+      uint64_t h = hash_of(i, j, kJitter);
+      jitter_x_.push_back(size_.jitter ? upper_unit(h) : 0.5f);
+      jitter_y_.push_back(size_.jitter ? lower_unit(h) : 0.5f);
+    }
+}
+
+namespace {
+
+/// The remainder that is not negative.
+int wrapped(int i, int size) {
+  return (i % size + size) % size;
+}
+
+} // namespace
+
+Vec2 SamplePattern::jitter(int column, int row) const {
+  int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
+  auto k = static_cast<size_t>(wrapped(row, rows) * columns + wrapped(column, columns));
+  return {jitter_x_[k], jitter_y_[k]};
 }
 
 void SamplePattern::cover(PixelRect area) {
@@ -48,15 +79,25 @@ void SamplePattern::cover(PixelRect area) {
   x_.resize(count_ + kPadding);
   y_.resize(count_ + kPadding);
   auto xs = static_cast<float>(size_.xsamples), ys = static_cast<float>(size_.ysamples);
-  size_t k = 0;
-  for (int j = 0; j < height_; ++j)
-    for (int i = 0; i < width_; ++i, ++k) {
-      int x = area.x0 * size_.xsamples + i, y = area.y0 * size_.ysamples + j;
-      uint64_t h = size_.jitter ? hash_of(x, y, kJitter) : 0;
-      float dx = size_.jitter ? upper_unit(h) : 0.5f, dy = size_.jitter ? lower_unit(h) : 0.5f;
-      x_[k] = (static_cast<float>(x) + dx) / xs;
-      y_[k] = (static_cast<float>(y) + dy) / ys;
+  const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
+  const int x0 = area.x0 * size_.xsamples, y0 = area.y0 * size_.ysamples;
+  float *to_x = x_.data(), *to_y = y_.data();
+  for (int j = 0; j < height_; ++j) {
+    const auto row = static_cast<size_t>(wrapped(y0 + j, rows) * columns);
+    const auto y = static_cast<float>(y0 + j);
+    for (int i = 0; i < width_;) {
+      // As far as the tile goes on without a break.
+      const int first = wrapped(x0 + i, columns), count = std::min(columns - first, width_ - i);
+      const float *dx = jitter_x_.data() + row + first, *dy = jitter_y_.data() + row + first;
+      for (int k = 0; k < count; ++k) {
+        to_x[k] = (static_cast<float>(x0 + i + k) + dx[k]) / xs;
+        to_y[k] = (y + dy[k]) / ys;
+      }
+      i += count;
+      to_x += count;
+      to_y += count;
     }
+  }
   if (timed_) add_strata(area);
   if (size_.levels) add_levels(area);
 }

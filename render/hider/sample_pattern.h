@@ -1,5 +1,6 @@
 // Where, when and through which point of the lens the samples of an area are taken. All of it depends on the
-// sample's place in the frame only, never on buckets or crop windows.
+// sample's place in the frame only, never on buckets or crop windows. Positions come from a tile that repeats
+// itself, so that the weights filters give them do, too.
 #pragma once
 
 #include "render/hider/quad_hits.h"
@@ -27,6 +28,11 @@ public:
   /// From now on for this area.
   void cover(PixelRect area);
 
+  /// The jitter of positions repeats itself every so many pixels in x and y: a power of two.
+  int period() const { return period_; }
+  /// Where in its cell the sample in that column and row of the frame lies, [0, 1).
+  Vec2 jitter(int column, int row) const;
+
   int width() const { return width_; } ///< samples in a row
   int height() const { return height_; }
   size_t count() const { return count_; }
@@ -51,6 +57,7 @@ public:
 
 private:
   size_t pixels() const { return count_ / static_cast<size_t>(strata_); }
+  void make_tile();
   void make_lens_boxes();
   Vec2 lens_corner(size_t stratum) const;
   void add_strata(PixelRect area);
@@ -58,7 +65,8 @@ private:
 
   SampleGridSize size_;
   bool timed_, with_lens_;
-  int width_ = 0, height_ = 0, columns_ = 0, strata_;
+  int width_ = 0, height_ = 0, columns_ = 0, strata_, period_ = 1;
+  std::vector<float> jitter_x_, jitter_y_; ///< of the tile's samples, in rows
   size_t count_ = 0;
   std::vector<float> x_, y_;
   std::vector<Vec2> lens_;

@@ -39,6 +39,12 @@ void hide_between_pieces(const slvm::Grid& grid, ShadedGrid& out) {
 
 void hide_behind_eye(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
   float nearest = camera.perspective() ? camera.near_plane() : -kInfinity;
+  // Of most grids nothing is.
+  const slvm::Planes& P = grid.variable(slvm::Global::kP);
+  bool visible = true;
+  for (size_t k = 0; k < grid.points(); ++k)
+    visible &= is_finite(read(P, k)) && P.get(2, k) >= nearest;
+  if (visible) return;
   hide_where(grid, out, ShadedGrid::kNotDrawn, [&](const Vec3(&p)[4]) {
     return std::any_of(p, p + 4, [&](Vec3 q) { return !is_finite(q) || q.z < nearest; });
   });
@@ -93,6 +99,7 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
     out.Oi[k] = Color(1.0f);
     ++out.bad_colours;
   }
+  out.opaque = std::all_of(out.Oi.begin(), out.Oi.end(), [](const Color& O) { return O == Color(1.0f); });
   for (const AovChannel& c : aovs)
     out.aov_floats += c.components;
   out.aov.assign(points * static_cast<size_t>(out.aov_floats), 0.0f);

@@ -43,7 +43,8 @@ struct ShadedGrid {
   SolidTree::NodeIndex solid_primitive = 0;
   bool cut_near = false; ///< the solid's primitive reaches in front of the near plane
   bool matte = false;
-  LevelPart level; ///< the samples that see it
+  bool opaque = false; ///< all Oi are 1
+  LevelPart level;     ///< the samples that see it
   bool smooth = false;
   uint64_t variables = 0; ///< a bit for each of the first 64 AOVs that this grid has a value for
   size_t bad_colours = 0; ///< points whose colour was not a finite number; they became black and opaque

@@ -294,7 +294,7 @@ bool is_st(const PatchVar& var) {
 }
 
 void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
-          slvm::Grid& grid) {
+          const ReadVariables& read, slvm::Grid& grid) {
   grid.reset(task.nu, task.nv * static_cast<int>(pieces.size()));
   if (pieces.size() > 1) {
     grid.lattice = slvm::Lattice::kPieces;
@@ -315,7 +315,7 @@ void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, 
     else
       lattice.append(piece_lattice);
   }
-  dice_points(parts, lattice, context, {}, grid);
+  dice_points(parts, lattice, context, read, grid);
   float du = (u.back() - u.front()) / static_cast<float>(u.size() - 1);
   float dv = (v.back() - v.front()) / static_cast<float>(v.size() - 1);
   set_steps(grid, Global::kdu, pieces, [&](const UvRect& whole) { return (whole.u1 - whole.u0) * du; });

@@ -22,11 +22,6 @@ struct DiceContext {
   float time = 0, dtime = 0;
 };
 
-/// Fills `grid` (its old content is dropped) with the lattice of `task`, whose pieces these are. `id` becomes
-/// part of the seed of random().
-void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
-          slvm::Grid& grid);
-
 /// Points of one primitive that follow each other in a grid.
 struct SurfacePoints {
   const Primitive* primitive = nullptr;
@@ -40,6 +35,11 @@ struct ReadVariables {
   std::function<bool(const std::string& name)> of_primitives; ///< empty: all
   bool has(slvm::Global g) const { return predefined[static_cast<size_t>(g)]; }
 };
+
+/// Fills `grid` (its old content is dropped) with the lattice of `task`, whose pieces these are. `id` becomes
+/// part of the seed of random(). What nobody reads is left out as dice_points() does.
+void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
+          const ReadVariables& read, slvm::Grid& grid);
 
 /// Fills a grid with the points of `parts`, which together are all points it has; `lattice` is what the
 /// geometry of the primitives gives at each, by their numbers in the grid. du and dv are left to the caller.

@@ -86,19 +86,32 @@ Box BilinearPatch::bound(const UvRect& r) const {
 }
 
 void BilinearPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
+  struct Column {
+    float u;
+    Vec3 first, last, dv; ///< its ends on the rows v = 0 and v = 1
+  };
+  struct Row {
+    float v;
+    Vec3 du;
+  };
+  const float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]),
+              collapsed = kCollapsed * scale;
   out.resize(at.size());
-  at.for_each([&](size_t k, float ui, float vj) {
-    out.P[k] = point(ui, vj);
-    out.dPdu[k] = du(vj);
-    out.dPdv[k] = dv(ui);
-    out.N[k] = normal(ui, vj);
-  });
-}
-
-Vec3 BilinearPatch::normal(float u, float v) const {
-  Vec3 n = glm::cross(du(v), dv(u));
-  float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]);
-  return glm::length(n) < kCollapsed * scale ? limit_normal(p_, 2, u, v) : n;
+  auto column = [&](float u) {
+    return Column{u, p_[0] * (1 - u) + p_[1] * u, p_[2] * (1 - u) + p_[3] * u, dv(u)};
+  };
+  at.for_each(
+      column,
+      [&](float v) {
+        return Row{v, du(v)};
+      },
+      [&](size_t k, const Column& c, const Row& r) {
+        out.P[k] = c.first * (1 - r.v) + c.last * r.v;
+        out.dPdu[k] = r.du;
+        out.dPdv[k] = c.dv;
+        const Vec3 n = glm::cross(r.du, c.dv);
+        out.N[k] = glm::dot(n, n) > collapsed * collapsed ? n : limit_normal(p_, 2, c.u, r.v);
+      });
 }
 
 Box BicubicPatch::bound(const UvRect& r) const {
@@ -132,7 +145,7 @@ void BicubicPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
     out.dPdu[k] = combine(r.points, 1, c.slope);
     out.dPdv[k] = combine(r.change, 1, c.value);
     out.N[k] = glm::cross(out.dPdu[k], out.dPdv[k]);
-    if (glm::length(out.N[k]) < collapsed) out.N[k] = limit_normal(p_, 4, c.u, r.v);
+    if (!(glm::dot(out.N[k], out.N[k]) > collapsed * collapsed)) out.N[k] = limit_normal(p_, 4, c.u, r.v);
   });
 }
 

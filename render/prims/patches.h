@@ -24,7 +24,6 @@ private:
   }
   Vec3 du(float v) const { return (p_[1] - p_[0]) * (1 - v) + (p_[3] - p_[2]) * v; }
   Vec3 dv(float u) const { return (p_[2] - p_[0]) * (1 - u) + (p_[3] - p_[1]) * u; }
-  Vec3 normal(float u, float v) const;
 
   std::array<Vec3, 4> p_;
 };

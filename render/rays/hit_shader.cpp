@@ -300,7 +300,7 @@ void HitShader::positions(const Primitive& primitive, const UvRect& rect, int nu
   task.nu = nu;
   task.nv = nv;
   auto bits = [](float x) { return static_cast<int64_t>(std::bit_cast<uint32_t>(x)); };
-  dice({&primitive, 1}, task, hash_of(bits(rect.u0), bits(rect.v0), kDisplacedFaces), dice_, grid);
+  dice({&primitive, 1}, task, hash_of(bits(rect.u0), bits(rect.v0), kDisplacedFaces), dice_, {}, grid);
   (*lease).context.displace(set_of(primitive), grid);
   const slvm::Planes& from = grid.variable(Global::kP);
   P.resize(grid.points());
@@ -400,28 +400,12 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
 /// The predefined variables that shaders, their lights and outputs read.
 std::bitset<slvm::kGlobalCount> HitShader::read_of_grids(const Work& work, const BoundAttributes& bound,
                                                          std::span<const slvm::RayOutput> outputs) {
-  std::bitset<slvm::kGlobalCount> out;
-  // Displaced points get new tangents; volumes are chosen by the geometric normal; plug-ins see all.
+  std::bitset<slvm::kGlobalCount> out = bound.read;
+  // Displaced points get new tangents; volumes are chosen by the geometric normal.
   if (work.set.displacement || !work.volumes.empty()) return out.set();
-  bool all = false;
-  auto add = [&](const slvm::Program& p) {
-    for (const slvm::Slot& slot : p.slots)
-      if (Global g = slot.parameter ? Global::kCount : slvm::find_global(slot.name); g != Global::kCount)
-        out.set(static_cast<size_t>(g));
-    all = all || std::any_of(p.imports.begin(), p.imports.end(),
-                             [&](slvm::ShadeopId id) { return p.plugins.find(id) != nullptr; });
-  };
-  // Others than the surface shader may be asked for their parameters, whose defaults read variables, too.
-  for (const slvm::Instance* shader :
-       {work.set.surface, work.set.atmosphere, work.set.interior, work.set.exterior})
-    if (shader) add(shader->program());
-  for (const slvm::Instance* light : bound.lights) // which may run with values that surfaces send
-    add(light->shader().program());
   for (const slvm::RayOutput& o : outputs)
     if (Global g = slvm::find_global(o.name); g != Global::kCount) out.set(static_cast<size_t>(g));
-  for (Global g : {Global::kP, Global::kN, Global::kCs, Global::kOs})
-    out.set(static_cast<size_t>(g));
-  return all ? out.set() : out;
+  return out;
 }
 
 HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& batch,

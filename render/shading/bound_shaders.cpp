@@ -116,6 +116,37 @@ void BoundShaders::Binder::bind_all(std::span<const Primitive> primitives) {
   }
 }
 
+namespace {
+
+std::bitset<slvm::kGlobalCount> read_by(const BoundAttributes& bound) {
+  using slvm::Global;
+  std::bitset<slvm::kGlobalCount> out;
+  auto add = [&](Global g) { out.set(static_cast<size_t>(g)); };
+  auto add_program = [&](const slvm::Program& p) {
+    for (const slvm::Slot& slot : p.slots)
+      if (Global g = slot.parameter ? Global::kCount : slvm::find_global(slot.name); g != Global::kCount)
+        add(g);
+    for (slvm::ShadeopId id : p.imports)
+      if (p.plugins.find(id)) {
+        out.set();
+      } else if (p.plugins.info(id).name == "texture") { // without coordinates at s and t
+        add(Global::ks);
+        add(Global::kt);
+      }
+  };
+  for (const slvm::Instance* shader :
+       {bound.shaders.surface, bound.shaders.atmosphere, bound.shaders.interior, bound.shaders.exterior})
+    if (shader) add_program(shader->program());
+  for (const slvm::Instance* light : bound.lights) // which may run with values that surfaces send
+    add_program(light->shader().program());
+  for (Global g : {Global::kP, Global::kN, Global::kI, Global::kCs, Global::kOs})
+    add(g);
+  if (bound.shaders.interior || bound.shaders.exterior) add(Global::kNg); // the side that is seen
+  return out;
+}
+
+} // namespace
+
 std::unique_ptr<const BoundAttributes>
 BoundShaders::Binder::bind(const std::shared_ptr<const Attributes>& a) {
   auto bound = std::make_unique<BoundAttributes>();
@@ -127,6 +158,7 @@ BoundShaders::Binder::bind(const std::shared_ptr<const Attributes>& a) {
   bound->shaders.exterior = bind(a->exterior);
   for (const auto& light : a->lights)
     if (const slvm::Instance* instance = bind(light)) bound->lights.push_back(instance);
+  bound->read = read_by(*bound);
   return bound;
 }
 

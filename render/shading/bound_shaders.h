@@ -6,6 +6,7 @@
 #include "slvm/machine.h"
 #include "slvm/support/diagnostics.h"
 
+#include <bitset>
 #include <map>
 #include <memory>
 #include <set>
@@ -39,6 +40,9 @@ struct BoundAttributes {
   std::shared_ptr<const Attributes> attributes;
   slvm::ShaderSet shaders;
   std::vector<const slvm::Instance*> lights;
+  /// The predefined variables that surface, atmosphere, volumes and lights read, and the defaults of their
+  /// parameters; all that a plug-in may ask for. Displacement may need more: it makes geometry anew.
+  std::bitset<slvm::kGlobalCount> read;
   bool same_as(const BoundAttributes& b) const {
     return shaders.displacement == b.shaders.displacement && shaders.surface == b.shaders.surface &&
            shaders.atmosphere == b.shaders.atmosphere && shaders.interior == b.shaders.interior &&

@@ -6,6 +6,7 @@
 #include "slvm/grid.h"
 #include "slvm/support/string_pool.h"
 
+#include <bitset>
 #include <memory>
 #include <string_view>
 
@@ -15,6 +16,10 @@ namespace render {
 class GridShader {
 public:
   virtual ~GridShader() = default;
+  /// The predefined variables of grids that shading a primitive reads.
+  virtual std::bitset<slvm::kGlobalCount> reads(const Primitive&) const {
+    return std::bitset<slvm::kGlobalCount>().set();
+  }
   /// Begins a grid: runs the displacement shader. False: the primitive has none, and the grid is as it was.
   virtual bool displace(const Primitive&, slvm::Grid&) = 0;
   /// Sets Ci and Oi.

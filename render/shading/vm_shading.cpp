@@ -28,6 +28,11 @@ public:
   VmGridShader(const slvm::Machine& machine, const BoundShaders& shaders, SceneServices& services)
       : shaders_(shaders), context_(machine, services) {}
 
+  std::bitset<slvm::kGlobalCount> reads(const Primitive& primitive) const override {
+    const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
+    return bound.shaders.displacement ? GridShader::reads(primitive) : bound.read;
+  }
+
   bool displace(const Primitive& primitive, slvm::Grid& grid) override {
     // Once for each grid: a procedural made meanwhile may have the same shaders bound anew.
     set_ = shaders_.find(&primitive.attributes())->shaders;

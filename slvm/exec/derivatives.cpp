@@ -31,10 +31,21 @@ void derivative(const GridCall& call, bool along_u) {
   auto count = static_cast<size_t>(components(call.operands[0].type));
   if (!in.step || !out.step) return clear(out, count, call.run.pitch);
   StepSize step(call.run, along_u);
-  Differences(call).for_each(along_u, [&](size_t lane, size_t lo, size_t hi, size_t steps) {
-    float scale = steps ? 1.0f / (static_cast<float>(steps) * step.at(lane)) : 0.0f;
-    for (size_t c = 0; c < count; ++c)
-      out.plane(c)[lane] = steps ? (in.plane(c)[hi] - in.plane(c)[lo]) * scale : 0.0f;
+  Differences(call).for_each_run(along_u, [&](const Differences::Run& run) {
+    auto scale = [&](size_t lane) { return 1.0f / (static_cast<float>(run.steps) * step.at(lane)); };
+    const float same = run.steps ? scale(run.first) : 0.0f; // where the step is
+    for (size_t c = 0; c < count; ++c) {
+      float* to = out.plane(c) + run.first;
+      const float *lo = in.plane(c) + run.lo, *hi = in.plane(c) + run.hi;
+      if (run.steps == 0)
+        std::fill_n(to, run.count, 0.0f);
+      else if (!step.planes.step)
+        for (size_t i = 0; i < run.count; ++i)
+          to[i] = (hi[i] - lo[i]) * same;
+      else
+        for (size_t i = 0; i < run.count; ++i)
+          to[i] = (hi[i] - lo[i]) * scale(run.first + i);
+    }
   });
 }
 

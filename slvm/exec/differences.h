@@ -19,32 +19,50 @@ public:
         everywhere_(call.level == 0),
         differ_(grid_.derivatives && !(call.level & kScatteredLevel && call.run.gathers.any_scattered())) {}
 
-  /// Calls store(lane, lo, hi) for every point. along_u: neighbours in the row, else in the column.
-  template <class F> void for_each(bool along_u, F&& store) const {
-    if (grid_.lattice == Lattice::kHits) return for_each_hit(along_u, store);
-    int nu = grid_.nu(), nv = grid_.nv();
-    int n = along_u ? nu : grid_.rows_of_piece();
-    size_t stride = along_u ? 1 : static_cast<size_t>(nu);
-    for (int iv = 0; iv < nv; ++iv)
-      for (int iu = 0; iu < nu; ++iu) {
-        size_t lane = static_cast<size_t>(iv) * static_cast<size_t>(nu) + static_cast<size_t>(iu);
-        int at = along_u ? iu : iv % n;
-        size_t lo = lane, hi = lane;
-        if (differ_) {
-          if (at > 0 && holds(lane - stride)) lo = lane - stride;
-          if (at + 1 < n && holds(lane + stride)) hi = lane + stride;
-        }
-        store(lane, lo, hi, (hi - lo) / stride);
+  /// Points that follow each other, as their neighbours do: `lo` and `hi` are those of the first, `steps`
+  /// steps of the grid apart, or itself where it has none there.
+  struct Run {
+    size_t first, count, lo, hi, steps;
+  };
+
+  /// Calls f(Run) for all points. along_u: neighbours in the row, else in the column.
+  template <class F> void for_each_run(bool along_u, F&& f) const {
+    if (grid_.lattice == Lattice::kHits) return for_each_hit(along_u, f);
+    const size_t points = grid_.points(), row = static_cast<size_t>(grid_.nu());
+    // Lines of neighbours: rows of points, or columns side by side, which are pieces of rows of rows.
+    const size_t stride = along_u ? 1 : row, n = along_u ? row : static_cast<size_t>(grid_.rows_of_piece());
+    if (!differ_ || n == 1) return f(Run{0, points, 0, 0, 0});
+    for (size_t first = 0; first < points; first += n * stride) {
+      if (everywhere_) {
+        const size_t last = first + (n - 1) * stride;
+        f(Run{first, stride, first, first + stride, 1});
+        if (n > 2) f(Run{first + stride, (n - 2) * stride, first, first + 2 * stride, 2});
+        f(Run{last, stride, last - stride, last, 1});
+        continue;
       }
+      for (size_t lane = first, end = first + n * stride; lane < end; ++lane) {
+        const size_t lo = lane - first >= stride && holds(lane - stride) ? lane - stride : lane,
+                     hi = lane + stride < end && holds(lane + stride) ? lane + stride : lane;
+        f(Run{lane, 1, lo, hi, (hi - lo) / stride});
+      }
+    }
+  }
+
+  /// Calls store(lane, lo, hi, steps) for all points, with the lanes of the neighbours.
+  template <class F> void for_each(bool along_u, F&& store) const {
+    for_each_run(along_u, [&](const Run& run) {
+      for (size_t i = 0; i < run.count; ++i)
+        store(run.first + i, run.lo + i, run.hi + i, run.steps);
+    });
   }
 
 private:
-  template <class F> void for_each_hit(bool along_u, F&& store) const {
+  template <class F> void for_each_hit(bool along_u, F&& f) const {
     auto hits = static_cast<size_t>(grid_.nu());
     size_t beside = grid_.nv() == 3 ? (along_u ? hits : 2 * hits) : 0;
     for (size_t lane = 0, hit = 0; lane < grid_.points(); ++lane, hit = hit + 1 == hits ? 0 : hit + 1) {
       bool both = grid_.derivatives && beside > 0 && holds(hit) && holds(hit + beside);
-      store(lane, both ? hit : lane, both ? hit + beside : lane, size_t{both});
+      f(both ? Run{lane, 1, hit, hit + beside, 1} : Run{lane, 1, lane, lane, 0});
     }
   }
   bool holds(size_t lane) const { return everywhere_ || mask_test(valid_, lane); }

@@ -276,7 +276,7 @@ void compare_with_grid(const ShadedScene& scene, int rounds) {
       task.rect = {static_cast<float>(k % 16) / 16, static_cast<float>(k % 16 + 1) / 16,
                    static_cast<float>(k / 16) / 16, static_cast<float>(k / 16 + 1) / 16};
       render::dice(std::span(s.scene().primitives).subspan(static_cast<size_t>(k % scene.balls), 1), task,
-                   static_cast<uint64_t>(k), dice, grid);
+                   static_cast<uint64_t>(k), dice, {}, grid);
       context.shade(set, grid);
     }
   };

@@ -34,7 +34,7 @@ struct Diced {
     task.rect = rect;
     task.nu = 5;
     task.nv = 4;
-    dice({&p, 1}, task, 3, {&camera, &strings, 0.5f, 0}, grid);
+    dice({&p, 1}, task, 3, {&camera, &strings, 0.5f, 0}, {}, grid);
   }
   Vec3 get(Global g, size_t k) const {
     const slvm::Planes& p = grid.variable(g);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace render {
 namespace {
 
@@ -148,6 +150,60 @@ TEST(Hider, clipping_planes_cut_within_a_micropolygon) {
   Image i = drawn({quad({Vec3(0, -1, 0), Vec3(4, -1, 4), Vec3(0, 9, 0), Vec3(4, 9, 4)}, kWhite, kWhite)}, s);
   EXPECT_EQ(i.pixel(1, 1)[Image::kAlpha], 0);
   EXPECT_EQ(i.pixel(2, 1)[Image::kAlpha], 1);
+}
+
+TEST(Hider, opaque_grids_are_painted_as_layers_are_composited) {
+  // Folded, thin and large micropolygons over each other; a transparent sheet makes layers of all of them.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> at(-2, 18), depth(1, 9), shade(0, 1);
+  SamplingSettings s = settings(3);
+  s.reconstruction.filter = {FilterKind::kGaussian, 2, 2};
+  s.reconstruction.aovs = {{"heat", 2, 0, AovChannel::Source::kVariable, {}}};
+  s.near_plane = 2;
+  s.far_plane = 8.5f;
+  std::vector<ShadedGrid> grids;
+  for (int n = 0; n < 60; ++n) {
+    ShadedGrid& g = grids.emplace_back();
+    g.nu = 4;
+    g.nv = 3;
+    g.smooth = n % 2 == 0;
+    g.aov_floats = 2;
+    g.opaque = true;
+    g.hidden.assign(6, ShadedGrid::kDrawn);
+    g.hidden[n % 6] = ShadedGrid::kNotDrawn;
+    Vec3 corner(at(random), at(random), depth(random));
+    for (int k = 0; k < 12; ++k) {
+      g.position.push_back(corner + Vec3(k % 4, k / 4, 0) +
+                           Vec3(at(random), at(random), depth(random)) * 0.1f);
+      g.Ci.push_back({shade(random), shade(random), shade(random)});
+      g.aov.insert(g.aov.end(), {shade(random), shade(random)});
+    }
+    g.Oi.assign(12, kWhite);
+  }
+  Image painted = drawn(grids, s, 16);
+  for (size_t first : {size_t{0}, grids.size() / 2}) { // all slowly, or painted among layers
+    for (size_t n = first; n < grids.size(); ++n)
+      grids[n].opaque = false;
+    std::vector<ShadedGrid> more = grids;
+    more.insert(more.begin() + 30, sheet(8.4f, kBlack, kBlack));
+    more[30].aov_floats = 2;
+    more[30].aov.assign(8, 0.0f);
+    Image composited = drawn(more, s, 16);
+    EXPECT_EQ(painted.data, composited.data) << first;
+    for (ShadedGrid& g : grids)
+      g.opaque = true;
+  }
+}
+
+TEST(Hider, what_is_painted_over_a_hole_is_seen) {
+  ShadedGrid hole = sheet(2, kWhite, kWhite), front = sheet(1, {1, 0.5f, 0}, kWhite);
+  hole.matte = true;
+  front.opaque = true;
+  for (const auto& order : {std::vector{hole, front}, std::vector{front, hole}}) {
+    Image i = drawn(order);
+    EXPECT_EQ(i.pixel(1, 1)[1], 0.5f);
+    EXPECT_EQ(i.pixel(1, 1)[Image::kAlpha], 1);
+  }
 }
 
 TEST(Hider, farthest_is_known_once_all_samples_are_closed) {

@@ -162,17 +162,60 @@ TEST(WindowWeights, are_those_of_the_filter) {
                           FilterKind::kDisk, FilterKind::kLanczos})
     for (float width : {1.0f, 2.5f, 4.0f}) {
       PixelFilter filter{kind, width, width + 1};
-      WindowWeights weights(filter);
-      SampleWindow window{1, 14, 2, 12};
-      Vec2 centre(2.5f, 1.5f);
-      const float* got = weights.at(centre, pattern, window);
-      for (size_t j = window.j0; j < window.j1; ++j)
-        for (size_t i = window.i0; i < window.i1; ++i) {
-          Vec2 at = pattern.at(j * static_cast<size_t>(pattern.width()) + i) - centre;
-          EXPECT_NEAR(*got++, filter_weight(filter, at.x, at.y), 2e-5f)
-              << static_cast<int>(kind) << ' ' << width;
-        }
+      WindowWeights weights(filter, kSize);
+      const FilterWindow& window = weights.window();
+      for (int x : {2, 66}) { // of two tiles
+        const int y = 1;
+        pattern.cover({x - 4, y - 4, x + 5, y + 5});
+        Vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        const float* got = weights.at(x, y, pattern);
+        float sum = 0;
+        for (int j = window.j0; j < window.j1; ++j, got += window.stride())
+          for (int i = window.i0; i < window.i1; ++i) {
+            Vec2 at = pattern.at(static_cast<size_t>((12 + j) * pattern.width() + 12 + i)) - centre;
+            EXPECT_NEAR(got[i - window.i0], filter_weight(filter, at.x, at.y), 2e-5f)
+                << static_cast<int>(kind) << ' ' << width;
+            sum += got[i - window.i0];
+          }
+        EXPECT_NEAR(*got, sum, 1e-6f * std::max(1.0f, sum));
+      }
     }
+}
+
+TEST(WindowWeights, means_are_those_of_the_samples_in_the_window) {
+  SamplePattern pattern(kSize, false, false);
+  pattern.cover({0, 0, 9, 9});
+  for (float width : {1.0f, 2.0f, 3.5f}) {
+    PixelFilter filter{FilterKind::kGaussian, width, width};
+    WindowWeights weights(filter, kSize);
+    const auto row = static_cast<size_t>(pattern.width());
+    std::vector<float> ramp, ones(pattern.count() + SamplePattern::kPadding, 1.0f);
+    for (size_t k = 0; k < pattern.count() + SamplePattern::kPadding; ++k)
+      ramp.push_back(k < pattern.count() ? pattern.at(k).x + 2 * pattern.at(k).y : NAN);
+    // What lies beside the window does not count, whatever it is.
+    const FilterWindow& window = weights.window();
+    const size_t first = static_cast<size_t>(12 + window.j0) * row + static_cast<size_t>(12 + window.i0);
+    for (size_t j = 0; j < window.rows(); ++j)
+      for (size_t i = 0; i < row; ++i)
+        if (size_t k = static_cast<size_t>(12 + window.j0) * row + j * row + i;
+            k < first + j * row || k >= first + j * row + window.columns())
+          ramp[k] = NAN;
+    const float* planes[] = {ones.data(), ramp.data(), ones.data(), ramp.data()};
+    float means[4];
+    weights.means(planes, first, row, weights.at(4, 4, pattern), means);
+    double sum = 0, total = 0;
+    for (size_t j = 0; j < window.rows(); ++j)
+      for (size_t k = first + j * row; k < first + j * row + window.columns(); ++k) {
+        Vec2 at = pattern.at(k) - Vec2(4.5f);
+        double w = static_cast<double>(filter_weight(filter, at.x, at.y));
+        total += w;
+        sum += w * static_cast<double>(ramp[k]);
+      }
+    EXPECT_EQ(means[0], 1);
+    EXPECT_EQ(means[2], 1);
+    EXPECT_NEAR(means[1], sum / total, 1e-4);
+    EXPECT_EQ(means[3], means[1]);
+  }
 }
 
 } // namespace

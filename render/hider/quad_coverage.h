@@ -1,0 +1,191 @@
+// Micropolygons over lanes of samples: edge functions (Pineda, 1988). Compiled once per SIMD target
+// (Highway), hence the unusual guard.
+#if defined(RENDER_HIDER_QUAD_COVERAGE_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RENDER_HIDER_QUAD_COVERAGE_H_
+#undef RENDER_HIDER_QUAD_COVERAGE_H_
+#else
+#define RENDER_HIDER_QUAD_COVERAGE_H_
+#endif
+
+#include "render/state/math.h"
+
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Micropolygons are small: of wider vectors most lanes would lie beyond them.
+constexpr hn::CappedTag<float, 8> kWide;
+constexpr hn::RebindToSigned<decltype(kWide)> kIndices;
+constexpr size_t kLanes = hn::MaxLanes(kWide);
+using V = hn::Vec<decltype(kWide)>;
+using I = hn::Vec<decltype(kIndices)>;
+using M = hn::Mask<decltype(kWide)>;
+
+struct WideVec2 {
+  V x, y;
+};
+
+/// Which lanes' samples are in the triangle a b d, and which in a d c; and twice the areas that the samples
+/// span with the sides, of either sign.
+struct WideCoverage {
+  M first, second;
+  V ab, bd, dc, ca, diagonal;
+};
+
+/// Corners a, b, c, d, u fastest; as many micropolygons as lanes, or one in all of them.
+struct WideQuad {
+  WideVec2 p[4];
+  V z[4];
+
+  /// Of the samples at `at` only those in `looked_at` are found. Of two triangles that share an edge exactly
+  /// one contains a sample on or near it: the areas for an edge and for its reverse differ in their signs
+  /// only, products and differences being what they are in floating point; and samples that are right on an
+  /// edge go to one side of it by its direction.
+  HWY_INLINE WideCoverage cover(const WideVec2& at, M looked_at) const {
+    WideVec2 to[4];
+    for (size_t c = 0; c < 4; ++c)
+      to[c] = {hn::Sub(p[c].x, at.x), hn::Sub(p[c].y, at.y)};
+    auto area = [&](size_t i, size_t j)
+                    HWY_ATTR { return hn::Sub(hn::Mul(to[i].x, to[j].y), hn::Mul(to[i].y, to[j].x)); };
+    WideCoverage out;
+    out.ab = area(0, 1);
+    out.bd = area(1, 3);
+    out.dc = area(3, 2);
+    out.ca = area(2, 0);
+    out.diagonal = area(3, 0);
+    const V zero = hn::Zero(kWide);
+    M ab = hn::Gt(out.ab, zero), bd = hn::Gt(out.bd, zero), dc = hn::Gt(out.dc, zero),
+      ca = hn::Gt(out.ca, zero), da = hn::Gt(out.diagonal, zero);
+    const V least = hn::Min(hn::Min(hn::Abs(out.ab), hn::Abs(out.bd)),
+                            hn::Min(hn::Min(hn::Abs(out.dc), hn::Abs(out.ca)), hn::Abs(out.diagonal)));
+    if (!hn::AllFalse(kWide, hn::And(hn::Eq(least, zero), looked_at))) {
+      ab = with_ties(ab, out.ab, 0, 1);
+      bd = with_ties(bd, out.bd, 1, 3);
+      dc = with_ties(dc, out.dc, 3, 2);
+      ca = with_ties(ca, out.ca, 2, 0);
+      da = with_ties(da, out.diagonal, 3, 0);
+    }
+    out.first = hn::AndNot(hn::Or(hn::Xor(ab, da), hn::Xor(bd, da)), looked_at);
+    // Seen from there the diagonal runs the other way.
+    out.second = hn::And(hn::And(hn::Xor(dc, da), hn::Xor(ca, da)), looked_at);
+    return out;
+  }
+
+private:
+  /// Samples right on an edge are to the left of it if it runs to the left, or straight down.
+  HWY_INLINE M with_ties(M left, V area, size_t from, size_t to) const {
+    const WideVec2 &a = p[from], &b = p[to];
+    const M back = hn::Or(hn::Lt(b.x, a.x), hn::And(hn::Eq(b.x, a.x), hn::Lt(b.y, a.y)));
+    return hn::Or(left, hn::And(hn::Eq(area, hn::Zero(kWide)), back));
+  }
+};
+
+/// One micropolygon in all lanes.
+HWY_INLINE WideQuad still_quad(const Vec3 (&p)[4]) {
+  WideQuad out;
+  for (size_t c = 0; c < 4; ++c) {
+    out.p[c] = {hn::Set(kWide, p[c].x), hn::Set(kWide, p[c].y)};
+    out.z[c] = hn::Set(kWide, p[c].z);
+  }
+  return out;
+}
+
+struct WideBox {
+  WideVec2 low, high;
+  HWY_INLINE WideBox(Vec2 from, Vec2 to)
+      : low{hn::Set(kWide, from.x), hn::Set(kWide, from.y)}, high{hn::Set(kWide, to.x),
+                                                                  hn::Set(kWide, to.y)} {}
+  HWY_INLINE M contains(const WideVec2& p) const {
+    return hn::And(hn::And(hn::Ge(p.x, low.x), hn::Le(p.x, high.x)),
+                   hn::And(hn::Ge(p.y, low.y), hn::Le(p.y, high.y)));
+  }
+};
+
+/// Samples that are looked at together: neighbours in one row.
+class RowOfSamples {
+public:
+  HWY_INLINE explicit RowOfSamples(size_t first) : first_(first) {}
+  HWY_INLINE V load(const float* plane) const { return hn::LoadU(kWide, plane + first_); }
+  HWY_INLINE void store(V v, float* plane) const { hn::StoreU(v, kWide, plane + first_); }
+  HWY_INLINE I numbers() const { return hn::Iota(kIndices, static_cast<int32_t>(first_)); }
+
+private:
+  size_t first_;
+};
+
+#if HWY_TARGET != HWY_SCALAR
+constexpr hn::Half<decltype(kWide)> kHalf;
+constexpr size_t kHalfLanes = hn::MaxLanes(kHalf);
+
+/// The same in two rows, one in each half of a vector. Without a second row the upper half is the lower once
+/// more.
+class TwoRowsOfSamples {
+public:
+  HWY_INLINE TwoRowsOfSamples(size_t lower, size_t upper) : lower_(lower), upper_(upper) {}
+  HWY_INLINE V load(const float* plane) const {
+    return hn::Combine(kWide, hn::LoadU(kHalf, plane + upper_), hn::LoadU(kHalf, plane + lower_));
+  }
+  /// What the lower half holds wins where both are the same samples.
+  HWY_INLINE void store(V v, float* plane) const {
+    hn::StoreU(hn::UpperHalf(kHalf, v), kHalf, plane + upper_);
+    hn::StoreU(hn::LowerHalf(kHalf, v), kHalf, plane + lower_);
+  }
+  HWY_INLINE I numbers() const {
+    const hn::Half<decltype(kIndices)> half;
+    return hn::Combine(kIndices, hn::Iota(half, static_cast<int32_t>(upper_)),
+                       hn::Iota(half, static_cast<int32_t>(lower_)));
+  }
+
+private:
+  size_t lower_, upper_;
+};
+#endif
+
+/// Calls `found(rows, coverage)` for all samples of the window, in vectors, of which some are in the
+/// micropolygon. The raster positions are in the planes x and y, `width` samples to a row.
+template <class Window, class Found>
+HWY_INLINE void for_covered(const Vec3 (&p)[4], const float* x, const float* y, size_t width,
+                            const Window& window, Found&& found) {
+  const WideBox box(glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3]))),
+                    glm::max(glm::max(Vec2(p[0]), Vec2(p[1])), glm::max(Vec2(p[2]), Vec2(p[3]))));
+  const WideQuad quad = still_quad(p);
+  auto look = [&](const auto& rows, M in_window) HWY_ATTR {
+    const WideVec2 at{rows.load(x), rows.load(y)};
+    const M looked_at = hn::And(box.contains(at), in_window);
+    if (hn::AllFalse(kWide, looked_at)) return;
+    const WideCoverage covered = quad.cover(at, looked_at);
+    if (!hn::AllFalse(kWide, hn::Or(covered.first, covered.second))) found(rows, quad, covered);
+  };
+#if HWY_TARGET != HWY_SCALAR
+  // Most micropolygons are so small that two rows of their windows fit into a vector.
+  if (const size_t columns = window.i1 - window.i0; columns <= kHalfLanes) {
+    const hn::Half<decltype(kIndices)> half;
+    const auto column = hn::Iota(half, 0);
+    const auto in_window = hn::RebindMask(kWide, hn::Lt(hn::Combine(kIndices, column, column),
+                                                        hn::Set(kIndices, static_cast<int32_t>(columns))));
+    const auto in_first_row = hn::And(in_window, hn::FirstN(kWide, kHalfLanes));
+    for (size_t j = window.j0; j < window.j1; j += 2) {
+      const bool two = j + 1 < window.j1;
+      const size_t k = j * width + window.i0;
+      look(TwoRowsOfSamples(k, two ? k + width : k), two ? in_window : in_first_row);
+    }
+    return;
+  }
+#endif
+  for (size_t j = window.j0; j < window.j1; ++j)
+    for (size_t i = window.i0; i < window.i1; i += hn::Lanes(kWide))
+      look(RowOfSamples(j * width + i), hn::FirstN(kWide, window.i1 - i));
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace render
+HWY_AFTER_NAMESPACE();
+
+#endif
