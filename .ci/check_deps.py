@@ -37,9 +37,10 @@ ALLOWED = {
     "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
-    "render": ["public", "stdlib/scattering", "render/hider/quad_hits", "render/hider/window_weights"],
+    "render": ["public", "stdlib/scattering", "render/hider/quad_coverage", "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights"],
     # Compiled once for each SIMD target.
     "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
+    "render/hider/quad_paint": ["render", "public", "slvm/wide/targets"],
     "render/hider/window_weights": ["render", "public", "slvm/wide/targets"],
     # What slrender and the C interface share: shaders are compiled on the fly.
     "render/setup": ["render", "slc", "public"],
@@ -63,7 +64,7 @@ OUTSIDE = {
     r"(?:tiffio|png)\.h": ["render/texture", "slvm/support/tiff_open", "slvm/support/tiff_pixels"],
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
-    r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_hits", "render/hider/window_weights", "tests/bench", "tests/unit/kernels"],
+    r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_coverage", "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights", "tests/bench", "tests/unit/kernels"],
     r"sleef": ["slvm/wide", "slvm/kernels", "tests/unit/kernels"],
     r"opensubdiv/": ["render/prims"],
     r"CLI/": ["slc/tools", "slvm/tools", "render/tools", "stdlib/tools"],

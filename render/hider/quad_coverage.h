@@ -20,8 +20,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Micropolygons are small: of wider vectors most lanes would lie beyond them.
-constexpr hn::CappedTag<float, 8> kWide;
+constexpr hn::CappedTag<float, 16> kWide;
 constexpr hn::RebindToSigned<decltype(kWide)> kIndices;
 constexpr size_t kLanes = hn::MaxLanes(kWide);
 using V = hn::Vec<decltype(kWide)>;
@@ -108,45 +107,65 @@ struct WideBox {
   }
 };
 
-/// Samples that are looked at together: neighbours in one row.
-class RowOfSamples {
+/// Samples that are looked at together: neighbours in kRows rows, each of which has its part of a vector.
+/// Where there are fewer rows the first one stands in for those that are missing.
+template <size_t kRows> class SampleRows {
 public:
-  HWY_INLINE explicit RowOfSamples(size_t first) : first_(first) {}
-  HWY_INLINE V load(const float* plane) const { return hn::LoadU(kWide, plane + first_); }
-  HWY_INLINE void store(V v, float* plane) const { hn::StoreU(v, kWide, plane + first_); }
-  HWY_INLINE I numbers() const { return hn::Iota(kIndices, static_cast<int32_t>(first_)); }
-
-private:
-  size_t first_;
-};
-
-#if HWY_TARGET != HWY_SCALAR
-constexpr hn::Half<decltype(kWide)> kHalf;
-constexpr size_t kHalfLanes = hn::MaxLanes(kHalf);
-
-/// The same in two rows, one in each half of a vector. Without a second row the upper half is the lower once
-/// more.
-class TwoRowsOfSamples {
-public:
-  HWY_INLINE TwoRowsOfSamples(size_t lower, size_t upper) : lower_(lower), upper_(upper) {}
-  HWY_INLINE V load(const float* plane) const {
-    return hn::Combine(kWide, hn::LoadU(kHalf, plane + upper_), hn::LoadU(kHalf, plane + lower_));
+  HWY_INLINE SampleRows(size_t first, size_t rows, size_t width) {
+    for (size_t j = 0; j < kRows; ++j)
+      first_[j] = j < rows ? first + j * width : first;
   }
-  /// What the lower half holds wins where both are the same samples.
-  HWY_INLINE void store(V v, float* plane) const {
-    hn::StoreU(hn::UpperHalf(kHalf, v), kHalf, plane + upper_);
-    hn::StoreU(hn::LowerHalf(kHalf, v), kHalf, plane + lower_);
-  }
+  HWY_INLINE V load(const float* plane) const { return load(kWide, plane, 0); }
+  /// What belongs to the first row wins where others are the same samples.
+  HWY_INLINE void store(V v, float* plane) const { store(kWide, v, plane, 0); }
   HWY_INLINE I numbers() const {
-    const hn::Half<decltype(kIndices)> half;
-    return hn::Combine(kIndices, hn::Iota(half, static_cast<int32_t>(upper_)),
-                       hn::Iota(half, static_cast<int32_t>(lower_)));
+    HWY_ALIGN int32_t out[kLanes];
+    for (size_t j = 0; j < kRows; ++j)
+      for (size_t i = 0; i < kLanes / kRows; ++i)
+        out[j * (kLanes / kRows) + i] = static_cast<int32_t>(first_[j] + i);
+    return hn::Load(kIndices, out);
   }
 
 private:
-  size_t lower_, upper_;
-};
+  template <class D> HWY_INLINE hn::Vec<D> load(D d, const float* plane, size_t row) const {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (hn::MaxLanes(d) * kRows > kLanes) {
+      const hn::Half<D> half;
+      constexpr size_t kUpper = hn::MaxLanes(half) * kRows / kLanes;
+      return hn::Combine(d, load(half, plane, row + kUpper), load(half, plane, row));
+    }
 #endif
+    return hn::LoadU(d, plane + first_[row]);
+  }
+  template <class D> HWY_INLINE void store(D d, hn::Vec<D> v, float* plane, size_t row) const {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (hn::MaxLanes(d) * kRows > kLanes) {
+      const hn::Half<D> half;
+      constexpr size_t kUpper = hn::MaxLanes(half) * kRows / kLanes;
+      store(half, hn::UpperHalf(half, v), plane, row + kUpper);
+      store(half, hn::LowerHalf(half, v), plane, row);
+      return;
+    }
+#endif
+    hn::StoreU(v, d, plane + first_[row]);
+  }
+
+  size_t first_[kRows];
+};
+
+/// Calls look(samples, lanes in the window) for the samples of a window of at most kLanes / kRows columns.
+template <size_t kRows, class Window, class Look>
+HWY_INLINE void for_rows(size_t width, const Window& window, Look&& look) {
+  constexpr auto kColumns = static_cast<int32_t>(kLanes / kRows);
+  const I lane = hn::Iota(kIndices, 0), column = hn::And(lane, hn::Set(kIndices, kColumns - 1));
+  const auto in_columns = hn::Lt(column, hn::Set(kIndices, static_cast<int32_t>(window.i1 - window.i0)));
+  for (size_t j = window.j0; j < window.j1; j += kRows) {
+    const size_t rows = window.j1 - j;
+    M in_window = hn::RebindMask(kWide, in_columns);
+    if (rows < kRows) in_window = hn::And(in_window, hn::FirstN(kWide, rows * kLanes / kRows));
+    look(SampleRows<kRows>(j * width + window.i0, rows, width), in_window);
+  }
+}
 
 /// Calls `found(rows, coverage)` for all samples of the window, in vectors, of which some are in the
 /// micropolygon. The raster positions are in the planes x and y, `width` samples to a row.
@@ -163,25 +182,15 @@ HWY_INLINE void for_covered(const Vec3 (&p)[4], const float* x, const float* y, 
     const WideCoverage covered = quad.cover(at, looked_at);
     if (!hn::AllFalse(kWide, hn::Or(covered.first, covered.second))) found(rows, quad, covered);
   };
-#if HWY_TARGET != HWY_SCALAR
-  // Most micropolygons are so small that two rows of their windows fit into a vector.
-  if (const size_t columns = window.i1 - window.i0; columns <= kHalfLanes) {
-    const hn::Half<decltype(kIndices)> half;
-    const auto column = hn::Iota(half, 0);
-    const auto in_window = hn::RebindMask(kWide, hn::Lt(hn::Combine(kIndices, column, column),
-                                                        hn::Set(kIndices, static_cast<int32_t>(columns))));
-    const auto in_first_row = hn::And(in_window, hn::FirstN(kWide, kHalfLanes));
-    for (size_t j = window.j0; j < window.j1; j += 2) {
-      const bool two = j + 1 < window.j1;
-      const size_t k = j * width + window.i0;
-      look(TwoRowsOfSamples(k, two ? k + width : k), two ? in_window : in_first_row);
-    }
-    return;
-  }
-#endif
+  // Most micropolygons are so small that several rows of their windows fit into a vector.
+  const size_t columns = window.i1 - window.i0;
+  if constexpr (kLanes >= 8)
+    if (columns <= 4) return for_rows<kLanes / 4>(width, window, look);
+  if constexpr (kLanes >= 16)
+    if (columns <= 8) return for_rows<kLanes / 8>(width, window, look);
   for (size_t j = window.j0; j < window.j1; ++j)
-    for (size_t i = window.i0; i < window.i1; i += hn::Lanes(kWide))
-      look(RowOfSamples(j * width + i), hn::FirstN(kWide, window.i1 - i));
+    for (size_t i = window.i0; i < window.i1; i += kLanes)
+      look(SampleRows<1>(j * width + i, 1, width), hn::FirstN(kWide, window.i1 - i));
 }
 
 } // namespace HWY_NAMESPACE
