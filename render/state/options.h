@@ -123,7 +123,7 @@ struct Options {
 
   // limits
   int bucket_width = 32, bucket_height = 32;
-  int grid_size = 256; ///< micropolygons in a grid, at most
+  int grid_size = 512; ///< micropolygons in a grid, at most
   int eye_splits = 10;
   int threads = 0; ///< 0: not said
   float texture_megabytes = 1024;

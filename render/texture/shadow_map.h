@@ -25,10 +25,6 @@ public:
   /// The part of the region that is farther from the camera than the map says (percentage closer filtering,
   /// Reeves, Salesin and Cook 1987): depths are compared first, then averaged.
   float shadowed(const Region&) const;
-
-private:
-  bool in_shadow(const slvm::Matrix4& to_raster, const float (&p)[3], float s_offset, float t_offset,
-                 float bias) const;
 };
 
 } // namespace render

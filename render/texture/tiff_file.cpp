@@ -36,7 +36,7 @@ void set_compression(TIFF* t, const ImageFile& image) {
   TIFFSetField(t, TIFFTAG_PREDICTOR,
                image.type == PixelType::kFloat ? PREDICTOR_FLOATINGPOINT : PREDICTOR_HORIZONTAL);
   // Rendered noise hardly gets smaller by trying harder.
-  if (way == COMPRESSION_ADOBE_DEFLATE) TIFFSetField(t, TIFFTAG_ZIPQUALITY, 2);
+  if (way == COMPRESSION_ADOBE_DEFLATE) TIFFSetField(t, TIFFTAG_ZIPQUALITY, 1);
 }
 
 /// Colours and what is beside them: the fourth channel is alpha when it is called so.

@@ -61,9 +61,15 @@ struct ElementEdges {
     if (!p.step) return;
     Differences differences(call);
     auto take = [&](std::vector<float>* out, bool along_u) {
-      differences.for_each(along_u, [&](size_t lane, size_t lo, size_t hi, size_t steps) {
-        for (size_t c = 0; c < 3; ++c)
-          out[c][lane] = steps ? (p.plane(c)[hi] - p.plane(c)[lo]) / static_cast<float>(steps) : 0.0f;
+      differences.for_each_run(along_u, [&](const Differences::Run& run) {
+        if (run.steps == 0) return;
+        const float per_step = 1 / static_cast<float>(run.steps);
+        for (size_t c = 0; c < 3; ++c) {
+          float* to = out[c].data() + run.first;
+          const float *lo = p.plane(c) + run.lo, *hi = p.plane(c) + run.hi;
+          for (size_t i = 0; i < run.count; ++i)
+            to[i] = (hi[i] - lo[i]) * per_step;
+        }
       });
     };
     take(u, true);
@@ -108,12 +114,14 @@ void calculate_normal(const GridCall& call) {
   ElementEdges edges(call, call.operands[1].planes);
   StepSize du(call.run, true), dv(call.run, false);
   float sign = call.run.state.grid->flip_normals ? -1.0f : 1.0f;
+  float *x = out.plane(0), *y = out.plane(1), *z = out.plane(2);
   for (size_t i = 0; i < call.run.points; ++i) {
     float n[3];
     edges.cross(i, n);
     float scale = sign / (du.at(i) * dv.at(i));
-    for (size_t c = 0; c < 3; ++c)
-      out.plane(c)[i] = n[c] * scale;
+    x[i] = n[0] * scale;
+    y[i] = n[1] * scale;
+    z[i] = n[2] * scale;
   }
 }
 
