@@ -147,6 +147,9 @@ class RayServices {
 public:
   virtual ~RayServices() = default;
 
+  /// Whether rays meet nothing, whatever they are like: then they need not be made. Asked often.
+  virtual bool is_empty() { return false; }
+
   /// The nearest hit of each ray: its distance, infinite for a miss, kNotShot for a ray that was not shot,
   /// and the outputs. With `cursors`, one a ray, the nearest hit behind each cursor, which moves there.
   virtual void trace(const ShadingState& state, const RayOptions&, const RayBatch&,

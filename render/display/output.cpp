@@ -64,21 +64,30 @@ template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileCha
   const PixelRect& r = image_.rect;
   std::vector<std::byte> out(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) *
                              channels.size() * sizeof(T));
-  const auto width = static_cast<size_t>(r.width()), stride = static_cast<size_t>(image_.channels);
-  for (size_t c = 0; c < channels.size(); ++c) {
-    const Quantization& q = channels[c].quantization;
-    const Quantizer quantizer(q, channels[c].source);
-    std::byte* at = out.data() + c * sizeof(T);
-    for (int y = r.y0; y < r.y1; ++y) {
-      const float* from = image_.pixel(r.x0, y) + channels[c].source;
-      for (size_t i = 0; i < width; ++i, at += channels.size() * sizeof(T)) {
-        const float v = from[i * stride];
-        T value;
-        if (std::is_same_v<T, float> && q.is_float())
-          value = static_cast<T>(v);
-        else
-          value = static_cast<T>(quantizer(v, r.x0 + static_cast<int>(i), y));
+  struct Source {
+    int channel;
+    bool as_it_is;
+    Quantizer quantizer;
+  };
+  std::vector<Source> sources;
+  for (const FileChannel& c : channels)
+    sources.push_back({c.source, std::is_same_v<T, float> && c.quantization.is_float(),
+                       Quantizer(c.quantization, c.source)});
+  std::byte* at = out.data();
+  for (int y = r.y0; y < r.y1; ++y) {
+    const float* pixel = image_.pixel(r.x0, y);
+    for (int x = r.x0; x < r.x1; ++x, pixel += image_.channels) {
+      int group = -1;
+      uint64_t hash = 0;
+      for (const Source& s : sources) {
+        if (const int own = Quantizer::group_of(s.channel); own != group) {
+          group = own;
+          hash = Quantizer::hash(x, y, group);
+        }
+        const float v = pixel[s.channel];
+        const T value = s.as_it_is ? static_cast<T>(v) : static_cast<T>(s.quantizer(v, hash));
         std::memcpy(at, &value, sizeof(T));
+        at += sizeof(T);
       }
     }
   }

@@ -3,6 +3,7 @@
 
 #include "render/state/camera.h"
 #include "render/state/options.h"
+#include "render/state/page_allocator.h"
 
 #include <array>
 #include <cmath>
@@ -42,7 +43,7 @@ struct Image {
 
   PixelRect rect; ///< the crop window, in pixels of the frame
   int channels = kAov;
-  std::vector<float> data;
+  std::vector<float, PageAllocator<float>> data;
 
   Image() = default;
   Image(PixelRect r, int aov_floats)

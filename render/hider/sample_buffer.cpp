@@ -358,12 +358,27 @@ void SampleBuffer::add(size_t index, const Color& Ci, const Color& Oi, float z, 
   fragments_of_[index] = order;
 }
 
+namespace {
+
+/// Of numbers that are not negative; in lanes, for the compiler to use vectors.
+float greatest(std::span<const float> values) {
+  constexpr size_t kLanes = 16;
+  float most[kLanes] = {};
+  size_t k = 0;
+  for (; k + kLanes <= values.size(); k += kLanes)
+    for (size_t i = 0; i < kLanes; ++i)
+      most[i] = most[i] < values[k + i] ? values[k + i] : most[i];
+  for (; k < values.size(); ++k)
+    most[0] = std::max(most[0], values[k]);
+  return *std::max_element(most, most + kLanes);
+}
+
+} // namespace
+
 float SampleBuffer::farthest() const {
   if (open_ > 0) return kInfinity;
   if (!farthest_known_) {
-    farthest_ = 0;
-    for (float z : std::span(limits().data(), pattern_.count()))
-      farthest_ = std::max(farthest_, z);
+    farthest_ = greatest(std::span(limits().data(), pattern_.count()));
     farthest_known_ = true;
   }
   return farthest_;

@@ -8,23 +8,34 @@ namespace render {
 
 namespace {
 
-Vec3 read(const slvm::Planes& p, size_t k) {
-  return {p.get(0, k), p.get(1, k), p.get(2, k)};
-}
+/// A triple of a grid, by point.
+class Triples {
+public:
+  explicit Triples(const slvm::Planes& p) : first_(p.data), pitch_(p.pitch), step_(p.step) {}
+  Vec3 operator[](size_t k) const {
+    const float* at = first_ + k * step_;
+    return {at[0], at[pitch_], at[2 * pitch_]};
+  }
+
+private:
+  const float* first_;
+  size_t pitch_, step_;
+};
 
 bool is_finite(Vec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  // Differences of what is not finite are no numbers.
+  return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0;
 }
 
 /// Calls `test` with the four corners of each micropolygon and marks those for which it is true.
 template <class Test>
 void hide_where(const slvm::Grid& grid, ShadedGrid& out, ShadedGrid::Visibility mark, Test&& test) {
-  const slvm::Planes& P = grid.variable(slvm::Global::kP);
+  const Triples P(grid.variable(slvm::Global::kP));
   auto nu = static_cast<size_t>(out.nu), nv = static_cast<size_t>(out.nv);
   for (size_t j = 0, m = 0; j + 1 < nv; ++j)
     for (size_t i = 0; i + 1 < nu; ++i, ++m) {
       size_t k = j * nu + i;
-      Vec3 p[4] = {read(P, k), read(P, k + 1), read(P, k + nu), read(P, k + nu + 1)};
+      Vec3 p[4] = {P[k], P[k + 1], P[k + nu], P[k + nu + 1]};
       if (test(p) && out.hidden[m] != ShadedGrid::kNotDrawn) out.hidden[m] = mark;
     }
 }
@@ -40,10 +51,12 @@ void hide_between_pieces(const slvm::Grid& grid, ShadedGrid& out) {
 void hide_behind_eye(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
   float nearest = camera.perspective() ? camera.near_plane() : -kInfinity;
   // Of most grids nothing is.
-  const slvm::Planes& P = grid.variable(slvm::Global::kP);
+  const Triples P(grid.variable(slvm::Global::kP));
   bool visible = true;
-  for (size_t k = 0; k < grid.points(); ++k)
-    visible &= is_finite(read(P, k)) && P.get(2, k) >= nearest;
+  for (size_t k = 0; k < grid.points(); ++k) {
+    const Vec3 p = P[k];
+    visible &= is_finite(p) && p.z >= nearest;
+  }
   if (visible) return;
   hide_where(grid, out, ShadedGrid::kNotDrawn, [&](const Vec3(&p)[4]) {
     return std::any_of(p, p + 4, [&](Vec3 q) { return !is_finite(q) || q.z < nearest; });
@@ -84,17 +97,17 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   out.smooth = a.smooth_shading;
   out.level = primitive.state->level;
   size_t points = grid.points();
-  const slvm::Planes &P = grid.variable(slvm::Global::kP), &Ci = grid.variable(slvm::Global::kCi),
-                     &Oi = grid.variable(slvm::Global::kOi);
+  const Triples P(grid.variable(slvm::Global::kP)), Ci(grid.variable(slvm::Global::kCi)),
+      Oi(grid.variable(slvm::Global::kOi));
   out.position.resize(points);
   out.Ci.resize(points);
   out.Oi.resize(points);
   for (size_t k = 0; k < points; ++k) {
-    Vec3 p = read(P, k);
+    const Vec3 p = P[k], C = Ci[k], O = Oi[k];
     out.position[k] = Vec3(camera.project(p), p.z);
-    out.Ci[k] = read(Ci, k);
-    out.Oi[k] = read(Oi, k);
-    if (is_finite(out.Ci[k]) && is_finite(out.Oi[k])) continue;
+    out.Ci[k] = C;
+    out.Oi[k] = O;
+    if (is_finite(C) && is_finite(O)) continue;
     out.Ci[k] = Color(0.0f);
     out.Oi[k] = Color(1.0f);
     ++out.bad_colours;
@@ -128,13 +141,13 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
 
 void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const Camera& camera,
                    const GridOutline* outline) {
-  const slvm::Planes& P = grid.variable(slvm::Global::kP);
+  const Triples P(grid.variable(slvm::Global::kP));
   if (shaded.times.empty()) shaded.times.push_back(0);
   shaded.rows.clear();
   shaded.times.push_back(time);
   std::vector<Vec3> moved(grid.points());
   for (size_t k = 0; k < moved.size(); ++k) {
-    Vec3 p = read(P, k);
+    const Vec3 p = P[k];
     moved[k] = Vec3(camera.project(p), p.z);
   }
   hide_behind_eye(grid, camera, shaded);

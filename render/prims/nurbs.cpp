@@ -104,6 +104,42 @@ void NurbsBasis::restrict(int interval, double a, double b, Vec4d* values, size_
     values[static_cast<size_t>(j) * stride] = out[j];
 }
 
+namespace {
+
+/// From homogeneous values and their changes, by the quotient rule.
+NurbsSurface::Point point_of(const Vec4d& sum, const Vec4d& du, const Vec4d& dv) {
+  const double scale = 1 / sum.w;
+  const Vec3d P = Vec3d(sum) * scale;
+  return {P, (Vec3d(du) - P * du.w) * scale, (Vec3d(dv) - P * dv.w) * scale};
+}
+
+} // namespace
+
+NurbsSurface::Curve NurbsSurface::row(const NurbsWeights& wv, int first, int count) const {
+  Curve out{first, std::vector<Vec4d>(static_cast<size_t>(count), Vec4d(0.0)),
+            std::vector<Vec4d>(static_cast<size_t>(count), Vec4d(0.0))};
+  for (int j = 0; j < v.order(); ++j) {
+    const Vec4d* row = &points[static_cast<size_t>(wv.first + j) * static_cast<size_t>(u.points())];
+    for (size_t i = 0; i < out.points.size(); ++i) {
+      const Vec4d& p = row[static_cast<size_t>(first) + i];
+      out.points[i] += p * wv.w[j];
+      out.change[i] += p * wv.slope[j];
+    }
+  }
+  return out;
+}
+
+NurbsSurface::Point NurbsSurface::Curve::at(const NurbsWeights& wu, int order) const {
+  Vec4d sum(0.0), du(0.0), dv(0.0);
+  for (int i = 0; i < order; ++i) {
+    const auto k = static_cast<size_t>(wu.first - first + i);
+    sum += points[k] * wu.w[i];
+    du += points[k] * wu.slope[i];
+    dv += change[k] * wu.w[i];
+  }
+  return point_of(sum, du, dv);
+}
+
 NurbsSurface::Point NurbsSurface::at(const NurbsWeights& wu, const NurbsWeights& wv) const {
   Vec4d sum(0.0), du(0.0), dv(0.0);
   for (int j = 0; j < v.order(); ++j) {
@@ -117,8 +153,7 @@ NurbsSurface::Point NurbsSurface::at(const NurbsWeights& wu, const NurbsWeights&
     du += across_slope * wv.w[j];
     dv += across * wv.slope[j];
   }
-  Vec3d P = Vec3d(sum) / sum.w;
-  return {P, (Vec3d(du) - P * du.w) / sum.w, (Vec3d(dv) - P * dv.w) / sum.w};
+  return point_of(sum, du, dv);
 }
 
 Box NurbsSurface::bound(double u0, double u1, double v0, double v1) const {
@@ -169,17 +204,26 @@ public:
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override {
     out.resize(at.size());
     const NurbsSurface& surface = *piece_.surface;
-    if (!straight_) {
+    if (!straight_ || at.paired) {
       at.for_each([&](size_t k, float a, float b) {
         Vec2d uv = piece_.uv(a, b);
         set(surface.at(piece_.uweights(uv.x), piece_.vweights(uv.y)), a, b, k, out);
       });
       return;
     }
+    // Where all points of a row have the same v, it is a curve.
     auto column = [&](float a) { return std::pair(a, piece_.uweights(piece_.uv(a, 0).x)); };
-    auto row = [&](float b) { return std::pair(b, piece_.vweights(piece_.uv(0, b).y)); };
+    int first = surface.u.points(), end = 0;
+    for (float a : at.u) {
+      const int here = column(a).second.first;
+      first = std::min(first, here);
+      end = std::max(end, here + surface.u.order());
+    }
+    auto row = [&](float b) {
+      return std::pair(b, surface.row(piece_.vweights(piece_.uv(0, b).y), first, end - first));
+    };
     at.for_each(column, row, [&](size_t k, const auto& c, const auto& r) {
-      set(surface.at(c.second, r.second), c.first, r.first, k, out);
+      set(r.second.at(c.second, surface.u.order()), c.first, r.first, k, out);
     });
   }
 

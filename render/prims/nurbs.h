@@ -49,6 +49,13 @@ public:
     glm::dvec3 P, dPdu, dPdv;
   };
   Point at(const NurbsWeights& u, const NurbsWeights& v) const;
+  /// A line of constant v: its control points, those from `first` on, and how they change with v.
+  struct Curve {
+    int first;
+    std::vector<glm::dvec4> points, change;
+    Point at(const NurbsWeights& u, int order) const;
+  };
+  Curve row(const NurbsWeights& v, int first, int count) const;
   /// A box around the part of the surface over a rectangle.
   Box bound(double u0, double u1, double v0, double v1) const;
 };

@@ -23,6 +23,7 @@ public:
   /// What grids that are of no primitive of the scene shoot with.
   void set_default_attributes(const RayAttributes& a) { default_attributes_ = a; }
 
+  bool is_empty() override { return geometry().items() == 0; }
   void trace(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,
              std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors) override;
   void transmission(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,

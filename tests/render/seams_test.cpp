@@ -91,7 +91,7 @@ TEST(Seams, concave_polygons) {
 // The seam of a torus turns back at the silhouette: its outline must reach as far as its neighbours'.
 TEST(Seams, a_side_that_turns_back_at_the_silhouette_leaves_no_notch) {
   Rendered r = render_text(
-      "Format 160 120 1 PixelSamples 4 4 Projection \"perspective\" \"fov\" 30 WorldBegin Translate 0 0 5 "
+      "Format 160 120 1 PixelSamples 8 8 Projection \"perspective\" \"fov\" 30 WorldBegin Translate 0 0 5 "
       "Rotate 60 1 0 0 Torus 0.8 0.35 0 360 360 WorldEnd");
   auto column = [&](int x) {
     double sum = 0;

@@ -43,7 +43,7 @@ TEST(Split, grids_respect_their_limit_and_cover_the_surface) {
   auto tasks = s.split(*make_sphere(1, -1, 1, 360), translation({0, 0, 5}));
   EXPECT_GT(tasks.size(), 4u);
   for (const GridTask& t : tasks) {
-    EXPECT_LE((t.nu - 1) * (t.nv - 1), 256);
+    EXPECT_LE((t.nu - 1) * (t.nv - 1), Options().grid_size);
     EXPECT_GE(t.nu, 2);
     EXPECT_GE(t.nv, 2);
     EXPECT_EQ(t.primitive, 7u);

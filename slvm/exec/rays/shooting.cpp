@@ -27,6 +27,11 @@ RayServices* ray_services(const ShaderRun& run, uint32_t code, size_t points) {
   return services;
 }
 
+bool meet_nothing(const ShaderRun& run) {
+  RayServices* services = run.state.services.rays();
+  return services && services->is_empty();
+}
+
 RayKind kind_for_cone(const ShaderRun& run, const PointValue& angle) {
   float threshold = 10;
   Value value;

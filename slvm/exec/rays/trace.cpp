@@ -40,10 +40,11 @@ class Tracer {
 public:
   Tracer(const GridCall& call, const RaySpec& spec, const RayOptions& options)
       : call_(call), options_(options) {
-    source.begin(call, spec, options.seed);
+    if (!meet_nothing(call.run)) source.begin(call, spec, options.seed);
   }
 
   template <class F> void run(bool wants_normal, F&& f) {
+    if (source.size() == 0) return;
     RayServices* services = ray_services(call_.run, call_.code, source.size());
     for_each_batch(source, [&](const RayBuffer& rays) {
       const size_t count = rays.size();
@@ -65,7 +66,7 @@ public:
     });
   }
 
-  RaySource source;
+  RaySource source; ///< empty where no ray would meet anything
 
 private:
   const GridCall& call_;
@@ -117,9 +118,11 @@ void trace_environment(const GridCall& call) {
   fill(run, out, 0);
   for (size_t c = 0; c < static_cast<size_t>(components(out.type)); ++c) {
     const float channel = first + static_cast<float>(c);
-    for (size_t i = 0; i < tracer.source.size(); ++i)
-      put(out.planes, c, tracer.source.point[i],
-          channel >= 0 && channel < 3 ? means.mean(i, static_cast<size_t>(channel)) : missing);
+    if (channel >= 0 && channel < 3)
+      for (size_t i = 0; i < tracer.source.size(); ++i)
+        put(out.planes, c, tracer.source.point[i], means.mean(i, static_cast<size_t>(channel)));
+    else
+      mask_for_each(run.mask.current(), run.points, [&](size_t i) { put(out.planes, c, i, missing); });
   }
 }
 
@@ -189,9 +192,10 @@ void ray_hit_test(const GridCall& call) {
   options.shades = false;
   Tracer tracer(call, spec, options);
   fill(call.run, out[2], 0);
-  for (size_t point : tracer.source.point)
+  mask_for_each(call.run.mask.current(), call.run.points, [&](size_t point) {
     for (size_t c = 0; c < 3; ++c)
       put(out[1].planes, c, point, p.planes.plane(c)[p.planes.step ? point : 0]);
+  });
   fill(call.run, out[0], kFar);
   tracer.run(true, [&](const RayBuffer& rays, const Hits& hits) {
     for (size_t r = 0; r < rays.size(); ++r) {

@@ -15,6 +15,7 @@ class Transmission {
 public:
   Transmission(const GridCall& call, const RaySpec& spec, const RayOptions& options, float fewest)
       : call_(call), options_(options) {
+    if (meet_nothing(call.run)) return; // no point has a result of its own
     source_.begin(call, spec, options.seed);
     for (auto& sums : sums_)
       sums.assign(source_.size(), 0.0);

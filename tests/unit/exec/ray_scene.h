@@ -61,12 +61,14 @@ public:
   std::vector<TestSurface> surfaces;
   std::set<uint32_t> too_deep; ///< samples that are not shot
   double self_distance = 1e-3; ///< the bias where none is given
+  bool known_empty = false;
 
   std::vector<AskedRay> rays;
   std::vector<AskedCall> calls;
   std::vector<AskedHemisphere> hemispheres;
   std::string map_problem;
 
+  bool is_empty() override { return known_empty; }
   void trace(const ShadingState&, const RayOptions&, const RayBatch&, std::span<const RayOutput>,
              float* distance, RayCursor*) override;
   void transmission(const ShadingState&, const RayOptions&, const RayBatch&,

@@ -76,6 +76,31 @@ TEST_F(Trace, OnlyActivePointsShoot) {
   EXPECT_EQ(scene_.rays.size(), 2u);
 }
 
+TEST_F(Trace, RaysThatAreKnownToMeetNothingAreNotMade) {
+  const char* statements[] = {
+      "result = comp(trace(P, N), 0);",
+      "result = float trace(P, N);",
+      "if (u > 0.5) result = float trace(P, N); else result = 3;",
+      "result = comp(visibility(P, P + N), 0);",
+      "point p = 0; normal n = 7; float d = rayhittest(P, N, p, n);"
+      "result = d * 1e-30 + distance(p, P) + xcomp(n);",
+      "result = comp(transmission(P, P + N, \"samples\", 4, \"samplecone\", 0.1), 1);",
+      "result = comp(color environment(\"raytrace\", N), 2);",
+      "result = float environment(\"raytrace\"[3], N, \"fill\", 0.25);",
+      "uniform color c = trace(point (0, 0, 0), vector (0, 0, 1)); result = comp(c, 0);",
+  };
+  for (const char* s : statements) {
+    scene_.known_empty = false;
+    const std::vector<float> missed = run(s);
+    EXPECT_FALSE(scene_.rays.empty()) << s;
+    scene_.forget();
+    scene_.known_empty = true;
+    EXPECT_EQ(run(s), missed) << s;
+    EXPECT_TRUE(scene_.rays.empty()) << s;
+  }
+  EXPECT_TRUE(messages().empty());
+}
+
 TEST_F(Trace, TokensArrive) {
   run("result = comp(trace(P, vector (0, 0, 1), \"label\", \"mirror\", \"subset\", \"near\", \"hitmode\", "
       "\"shader\", "

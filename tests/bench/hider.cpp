@@ -1,0 +1,76 @@
+// Micropolygons of about a pixel over a bucket, 2 by 2 samples a pixel: grids that are painted (quad_paint.h)
+// beside the same grids hit by hit. --check: the pixels are the same.
+#include "render/hider/sample_buffer.h"
+
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+
+namespace {
+
+using namespace render;
+
+constexpr int kPixels = 32, kGrid = 17, kLayers = 4;
+
+/// Slightly turned grids, one behind the other, which cover the bucket together.
+std::vector<ShadedGrid> make_grids(bool opaque) {
+  std::vector<ShadedGrid> out;
+  for (int layer = 0; layer < kLayers; ++layer)
+    for (int part = 0; part < 9; ++part) {
+      ShadedGrid& g = out.emplace_back();
+      g.nu = g.nv = kGrid;
+      g.smooth = true;
+      g.opaque = opaque;
+      g.hidden.assign((kGrid - 1) * (kGrid - 1), ShadedGrid::kDrawn);
+      for (int k = 0; k < kGrid * kGrid; ++k) {
+        const auto x = static_cast<float>(part % 3 * (kGrid - 1) + k % kGrid - 8),
+                   y = static_cast<float>(part / 3 * (kGrid - 1) + k / kGrid - 8);
+        g.position.push_back({x + 0.1f * y, y - 0.1f * x, static_cast<float>(2 + layer)});
+        g.Ci.push_back({x / kPixels, y / kPixels, static_cast<float>(layer) / kLayers});
+        g.Oi.push_back(Color(1.0f));
+      }
+    }
+  return out;
+}
+
+struct Bench {
+  SamplingSettings settings;
+  std::vector<ShadedGrid> grids;
+  SampleBuffer buffer;
+  Image image{{0, 0, kPixels, kPixels}, 0};
+
+  explicit Bench(bool opaque) : settings(make_settings()), grids(make_grids(opaque)), buffer(settings) {}
+  static SamplingSettings make_settings() {
+    SamplingSettings out;
+    out.reconstruction.filter = {FilterKind::kGaussian, 2, 2};
+    return out;
+  }
+  void run() {
+    buffer.begin(image.rect);
+    for (const ShadedGrid& g : grids)
+      buffer.draw(g);
+    buffer.finish(image);
+  }
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Bench painted(true), hit(false);
+  if (argc > 1 && std::strcmp(argv[1], "--check") == 0) {
+    painted.run();
+    hit.run();
+    return painted.image.data == hit.image.data ? 0 : 1;
+  }
+  for (auto [name, bench] : {std::pair("painted", &painted), std::pair("hit by hit", &hit)})
+    benchmark::RegisterBenchmark(name, [bench = bench](benchmark::State& state) {
+      for (auto _ : state)
+        bench->run();
+      state.counters["ns/micropolygon"] =
+          benchmark::Counter(9 * kLayers * (kGrid - 1) * (kGrid - 1) * 1e-9,
+                             benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    });
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
