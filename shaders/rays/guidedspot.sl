@@ -42,7 +42,7 @@ guidedspot(float intensity = 1;                   /* brightness at distance 1 on
       else if (trace == 0)
         through = 1 - shadow(shadowmap, Ps, "bias", mapbias);
       else
-        through = color transmission(Ps, from, "samples", shadowrays(samples), "samplecone", atan(radius, distance));
+        through = softshadow(Ps, from, radius, samples);
     }
     Cl = falloff * intensity * lightcolor * through;
   }

@@ -23,10 +23,7 @@ shadowdistant(float intensity = 1;                   /* brightness */
               )
 {
   uniform vector axis = normalize(to - from);
-  uniform float first = minsamples > 0 ? minsamples : samples;
   solar(axis, 0) {
-    uniform float rays = shadowrays(samples);
-    Cl = intensity * lightcolor * transmission(Ps, Ps - far * axis, "samples", rays, "minsamples", min(first, rays), "samplecone",
-                                               blur, "bias", bias, "subset", subset);
+    Cl = intensity * lightcolor * shadowthrough(Ps, Ps - far * axis, samples, minsamples, blur, bias, subset);
   }
 }

@@ -28,17 +28,12 @@ shadowspot(float intensity = 1;                   /* brightness at distance 1 on
            )
 {
   uniform vector A = normalize(to - from);
-  uniform float first = minsamples > 0 ? minsamples : samples;
-
   illuminate(from, A, coneangle) {
     float distance = length(L);
     float c = (L . A) / distance;
     float falloff = pow(c, beamdistribution) / (distance * distance);
     falloff *= smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c);
     float cone = radius > 0 ? atan(radius, distance) : blur;
-    uniform float rays = shadowrays(samples);
-    color through = transmission(Ps, from, "samples", rays, "minsamples", min(first, rays), "samplecone", cone, "bias", bias,
-                                 "subset", subset);
-    Cl = falloff * intensity * lightcolor * through;
+    Cl = falloff * intensity * lightcolor * shadowthrough(Ps, from, samples, minsamples, cone, bias, subset);
   }
 }
