@@ -9,9 +9,9 @@
 
 light
 mapdistant(float intensity = 1;                   /* brightness */
-           color lightcolor = 1;
+           color lightcolor = 1;                  /* of the light */
            point from = point "shader" (0, 0, 0); /* only the direction from one to the other counts */
-           point to = point "shader" (0, 0, 1);
+           point to = point "shader" (0, 0, 1);   /* where it shines to */
            string shadowmap = "";                 /* "": no shadows */
            float shadowblur = 0.005;              /* 0 to 1: softness of their edges, a part of the map */
            )
