@@ -44,7 +44,7 @@ def head(s):
         s.cut(rod(a, b, 0.011), 0.014)
     s.cut(ellipsoid((0.026, 1.012, -0.85), (0.01, 0.009, 0.016)), 0.012)
     s.add(ellipsoid((0, 1.035, -0.815), (0.012, 0.026, 0.022)), 0.02)         # the horn on its nose
-    # Horns, and a frill of two spines with skin.
+    # Horns, and a frill of three spines.
     horn = ((0.058, 1.095, -0.51), (0.082, 1.165, -0.43), (0.1, 1.2, -0.33), (0.112, 1.205, -0.235))
     for i, r in enumerate((0.03, 0.023, 0.015)):
         s.add(rod(horn[i], horn[i + 1], r, (0.023, 0.015, 0.006)[i]), 0.02)
@@ -84,8 +84,7 @@ def plates(s):
     while z < 1.45:
         y, slope = spine_at(z)
         tall = 0.085 * math.exp(-((z - 0.08) / 0.5) ** 2) + 0.026
-        lean, rise = 0.5, 1.0
-        along, up, _ = frame((0, slope * 1.0, 1.0), (0, rise, lean))
+        along, up, _ = frame((0, slope, 1), (0, 1, 0.5)) # they lean back
         s.add(ellipsoid((0, y + 0.35 * tall, z + 0.1 * tall), (0.62 * tall, tall, 0.013), (along, up, (1, 0, 0))), 0.012)
         z += 0.075 + 0.5 * tall
 
