@@ -55,6 +55,20 @@ def frame(along, up):
     return u, v, cross(u, v)
 
 
+def steps(*runs):
+    """Planes from a list of (up to, step): the first entry is where they begin."""
+    at = [runs[0]]
+    for end, step in runs[1:]:
+        count = max(round((end - at[-1]) / step), 1)
+        begin = at[-1]
+        at += [begin + (end - begin) * (i + 1) / count for i in range(count)]
+    return at
+
+
+def symmetric(planes):
+    return [-x for x in reversed(planes) if x > 0] + planes
+
+
 class Solid:
     """Parts that are added and cut away one after the other. Symmetric about x = 0: parts need to be there for positive x only."""
 
@@ -87,20 +101,6 @@ def distance_of(parts, x, y, z):
     return f
 
 
-def steps(*runs):
-    """Planes from a list of (up to, step): the first entry is where they begin."""
-    at = [runs[0]]
-    for end, step in runs[1:]:
-        count = max(round((end - at[-1]) / step), 1)
-        begin = at[-1]
-        at += [begin + (end - begin) * (i + 1) / count for i in range(count)]
-    return at
-
-
-def symmetric(planes):
-    return [-x for x in reversed(planes) if x > 0] + planes
-
-
 def surface(solid, xs, ys, zs, block=6):
     """The surface in a box as quadrilaterals, one vertex to each cell that it passes (surface nets, Gibson 1998). xs, ys, zs are the
     planes of the cells, ascending and of any spacing; xs symmetric about 0."""
@@ -117,8 +117,7 @@ def surface(solid, xs, ys, zs, block=6):
             for j in range(j0, j1 + 1):
                 for k in range(k0, k1 + 1):
                     if (i, j, k) not in values:
-                        twin = values.get((len(xs) - 1 - i, j, k)) # the other half is the same
-                        values[i, j, k] = distance_of(parts, abs(xs[i]), ys[j], zs[k]) if twin is None else twin
+                        values[i, j, k] = distance_of(parts, abs(xs[i]), ys[j], zs[k])
         return range(i0, i1), range(j0, j1), range(k0, k1)
 
     mesh, vertex = Mesh(), {}
