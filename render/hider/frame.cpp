@@ -78,6 +78,7 @@ private:
   void split_all();
   void make_buckets();
   void render_bucket(int i, int j, Worker& worker);
+  bool masked(const GridTask& task, const PixelRect& covered) const;
   /// What comes after the filter.
   void finish_bucket(const PixelRect& rect, Worker& worker);
   const ShadedGrid* shaded(TaskBatch& batch, uint32_t task, Worker& worker);
@@ -241,7 +242,11 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
       }
       continue;
     }
-    if (!hidden || !item.batch->primitive_of(item.task).attributes().cull_hidden)
+    const GridTask& task = item.batch->tasks[item.task];
+    const Primitive& primitive = item.batch->primitive_of(item.task);
+    // Of a solid all must be known, whatever is seen of it.
+    hidden = hidden || (!primitive.state->solid && masked(task, samples.covered()));
+    if (!hidden || !primitive.attributes().cull_hidden)
       if (const ShadedGrid* grid = shaded(*item.batch, item.task, worker)) samples.draw(*grid);
     item.batch->slots[item.task].leave();
   }
@@ -250,6 +255,15 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
     content_.leave(**lazy, i, j, true);
   samples.finish(image_);
   finish_bucket(rect, worker);
+}
+
+/// Whether Hider "depthmask" leaves out all of a task that samples of `covered` could see.
+bool FrameRenderer::masked(const GridTask& task, const PixelRect& covered) const {
+  if (!sampling_.mask) return false;
+  const Vec2 from = glm::max(task.raster_min, Vec2(covered.x0, covered.y0)) * sampling_.mask_scale;
+  const Vec2 to = glm::min(task.raster_max, Vec2(covered.x1, covered.y1)) * sampling_.mask_scale;
+  const auto [least, largest] = sampling_.mask->limits(from, to);
+  return sampling_.mask->reverse ? task.zmin > largest : task.zmax < least;
 }
 
 void FrameRenderer::finish_bucket(const PixelRect& rect, Worker& worker) {

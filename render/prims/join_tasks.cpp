@@ -61,6 +61,7 @@ void join_tasks(std::span<const Primitive> primitives, std::vector<GridTask>& ta
         run.raster_min = low;
         run.raster_max = high;
         run.zmin = std::min(run.zmin, task.zmin);
+        run.zmax = std::max(run.zmax, task.zmax);
         continue;
       }
     }

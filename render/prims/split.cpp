@@ -84,6 +84,7 @@ void Splitter::visit(const Piece& piece) {
   task.primitive = index_;
   task.rect = piece.rect;
   task.zmin = std::max(box.min.z, camera_.near_plane());
+  task.zmax = box.max.z;
   task.raster_min = settings_.raster_min;
   task.raster_max = settings_.raster_max;
   if (!crosses_eye) {

@@ -19,8 +19,8 @@ struct GridTask {
   UvRect rect;
   int nu = 2, nv = 2; ///< points of the lattice, of each piece
   Vec2 raster_min, raster_max;
-  float zmin = 0; ///< nearest camera z of its bound
-  float step = 1; ///< side of a micropolygon in pixels
+  float zmin = 0, zmax = 0; ///< nearest and farthest camera z of its bound
+  float step = 1;           ///< side of a micropolygon in pixels
 };
 
 struct SplitSettings {

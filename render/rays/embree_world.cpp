@@ -290,7 +290,9 @@ std::optional<RayHit> hit_solid(Query& q, RTCScene faces, const RTCRay& ray) {
 void intersect_item(const RTCIntersectFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   visit_item(args, ray.ray, [&](Query& q, bool solid, auto faces, RTCFilterFunctionN filter) {
-    const float before = ray.ray.tfar;
+    // A face at the distance of the last hit takes its place, and tfar stays: only geomID tells.
+    const RTCHit before = ray.hit;
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     if (!solid)
       intersect(faces, q.inner, filter, ray);
     else if (auto hit = hit_solid(q, faces, ray.ray)) {
@@ -300,7 +302,10 @@ void intersect_item(const RTCIntersectFunctionNArguments* args) {
       ray.hit.u = hit->u;
       ray.hit.v = hit->v;
     }
-    if (ray.ray.tfar < before) q.hit_item = args->primID;
+    if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+      q.hit_item = args->primID;
+    else
+      ray.hit = before;
   });
 }
 

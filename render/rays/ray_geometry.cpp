@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <set>
 
@@ -83,6 +84,7 @@ void PartIndex::build(std::span<const ItemPart> parts, uint32_t faces) {
 
 size_t PartIndex::find(std::span<const ItemPart> parts, uint32_t face) const {
   const size_t block = face >> shift_;
+  assert(block + 1 < first_.size());
   size_t low = first_[block], high = first_[block + 1];
   while (low < high) {
     const size_t middle = (low + high + 1) / 2;

@@ -10,32 +10,32 @@
 surface
 coral(uniform float id = 0;              /* number of the model, for variation; 0: none */
       uniform float size = 1;            /* of pattern features, shader space */
-      uniform float sizevariation = 0.3;
+      uniform float sizevariation = 0.3; /* how much size differs between models: by up to half of this part of it */
       uniform float huevariation = 0.06; /* of all colours: part of the circle */
-      uniform float saturationvariation = 0.15, valuevariation = 0.15;
+      uniform float saturationvariation = 0.15, valuevariation = 0.15; /* by up to such parts of themselves, 0 to 1 */
       varying float tipdistance = 1;     /* scalar fields, primitive variables */
-      varying float basedistance = 1;
-      uniform float Ka = 1;
+      varying float basedistance = 1;    /* 0 at the base, 1 farthest from it; used by the displacement */
+      uniform float Ka = 1;              /* part of ambient light, all layers */
       /* Bone. */
-      uniform color bonecolor = color (0.85, 0.8, 0.7);
+      uniform color bonecolor = color (0.85, 0.8, 0.7); /* on its ridges */
       uniform color bonestain = color (0.5, 0.42, 0.3); /* in its hollows */
-      uniform float bonepattern = 24, bonecontrast = 0.7;
+      uniform float bonepattern = 24, bonecontrast = 0.7; /* number of its pattern (organicpatterns.h); how much it shows, 0 to 1 */
       /* Velvet. */
-      uniform color velvetcolor = color (0.75, 0.25, 0.3);
+      uniform color velvetcolor = color (0.75, 0.25, 0.3); /* away from the tips */
       uniform color velvettip = color (0.95, 0.75, 0.7);   /* towards the tips */
       uniform float tiplength = 0.25;                      /* tipdistance at which it begins; 0: none */
-      uniform float velvetpattern = 1, velvetcontrast = 0.4;
-      uniform string velvetmap = "";
-      uniform float Kvelvet = 0.9;
+      uniform float velvetpattern = 1, velvetcontrast = 0.4; /* number of its pattern; how much it darkens, 0 to 1 */
+      uniform string velvetmap = "";                         /* one channel, for patterns 32 to 35 */
+      uniform float Kvelvet = 0.9;                           /* part of diffuse light */
       uniform float sheen = 0.5, sheenexponent = 4;        /* the pale edge of velvet */
       /* Polyps. */
-      uniform color polypcolor = color (0.95, 0.8, 0.45);
-      uniform float Kpolyp = 1, polypspecular = 0.35, polyproughness = 0.08;
+      uniform color polypcolor = color (0.95, 0.8, 0.45);  /* of polyps */
+      uniform float Kpolyp = 1, polypspecular = 0.35, polyproughness = 0.08; /* parts of light (0: no polyps), highlight width */
       uniform float polypedge = 0.25;                      /* height at which a polyp begins */
       /* Light from within. */
       uniform float Kscatter = 0;                          /* 0: none */
-      uniform color scatterinner = color (1, 0.35, 0.2), scatterouter = color (0.55, 0.2, 0.2);
-      uniform color scattertexcolor = color (0.25, 0.08, 0.1);
+      uniform color scatterinner = color (1, 0.35, 0.2), scatterouter = color (0.55, 0.2, 0.2); /* at rims and tips; facing the viewer */
+      uniform color scattertexcolor = color (0.25, 0.08, 0.1);                                  /* where it is dense */
       uniform float scatterdensity = 0.5;                  /* influence of the pattern of density */
       uniform float densitypattern = 2, densitysize = 2;   /* features as many times as large */
       uniform float scatterforward = 0.8;                  /* 1: only lights behind it; 0: all lights alike */

@@ -8,22 +8,22 @@
 displacement
 coraldisplacement(uniform float id = 0;           /* number of the model, for variation; 0: none */
                   uniform float size = 1;         /* of pattern features, shader space */
-                  uniform float sizevariation = 0.3;
+                  uniform float sizevariation = 0.3; /* how much size differs between models: by up to half of this part of it */
                   /* Where layers are, along the model. */
                   varying float tipdistance = 1;  /* scalar fields, primitive variables */
-                  varying float basedistance = 1;
+                  varying float basedistance = 1; /* 0 at the tips and at the base, 1 farthest from them */
                   uniform float boneextent = 0;   /* bare bone up to this basedistance; 0: none */
                   uniform float boneedge = 0.25;  /* how much patterns move that edge */
                   uniform float polypfrom = 0.05; /* polyps between these tipdistances */
-                  uniform float polypto = 1;
+                  uniform float polypto = 1;      /* 0 to 1; above 1: to the base */
                   uniform float polypfade = 0.15; /* width in which they grow smaller there */
                   /* Polyps: a pattern of organicpatterns.h, processed. */
-                  uniform float polyppattern = 8;
-                  uniform string polypmap = "";
+                  uniform float polyppattern = 8; /* its number, 0 to 35 */
+                  uniform string polypmap = "";   /* one channel, for patterns 32 to 35 */
                   uniform float polyplength = 0;  /* shader space; 0: flat */
-                  uniform float polyplow = 0.25, polyphigh = 1, polypgain = 1;
+                  uniform float polyplow = 0.25, polyphigh = 1, polypgain = 1; /* what of it counts; below 1 sharpens, above fattens */
                   /* Bone. */
-                  uniform float bonepattern = 24;
+                  uniform float bonepattern = 24;  /* its number, 0 to 31 */
                   uniform float boneroughness = 0; /* shader space; 0: smooth */
                   output varying float normaldot = 0;  /* facing of the surface before displacement */
                   output varying float polyp = 0;      /* height of polyps, 0 to 1 */

@@ -5,11 +5,11 @@
 surface
 rayglass(uniform float eta = 1.33;      /* refractive index of the inside */
          uniform color tint = 1;        /* of what is seen through, at each wall */
-         uniform float Kreflect = 1, Krefract = 1;
-         uniform float Ks = 0.6, roughness = 0.05;
+         uniform float Kreflect = 1, Krefract = 1; /* strengths of both, 1: as physics says */
+         uniform float Ks = 0.6, roughness = 0.05; /* highlights of lamps; their width */
          uniform string envmap = "";    /* seen where there is nothing; "": background */
-         uniform string envspace = "world";
-         uniform color background = 0;
+         uniform string envspace = "world";        /* the axes of envmap */
+         uniform color background = 0;             /* seen where there is nothing, without envmap */
          )
 {
   normal Nn = normalize(N), Nf = faceforward(Nn, I);

@@ -11,14 +11,14 @@ tankglass(uniform string reflection = ""; /* picture of the reflection camera; "
           uniform string refraction = ""; /* and of the refraction camera */
           uniform float eta = 1.33;       /* refractive index of what is behind the glass: water */
           uniform float Kreflect = 1;     /* strength of mirroring: 1 as physics says */
-          uniform float Krefract = 1;
+          uniform float Krefract = 1;     /* strength of what is seen through */
           uniform color tint = color (0.92, 1, 0.97); /* of what is seen through the glass */
           /* Artistic offsets and blurs, as parts of the pictures. */
-          uniform float reflectoffset[2] = {0, 0}, refractoffset[2] = {0, 0};
-          uniform float reflectblur = 0, refractblur = 0;
+          uniform float reflectoffset[2] = {0, 0}, refractoffset[2] = {0, 0}; /* to the right and down */
+          uniform float reflectblur = 0, refractblur = 0;                     /* 0 to 1 */
           /* Uneven glass: how far noise moves the pictures, and how fine it is, shader space. */
-          uniform float warp = 0, warpsize = 1;
-          uniform float Ka = 0, Kd = 0, Ks = 0.6, roughness = 0.05;
+          uniform float warp = 0, warpsize = 1;                               /* a part of the pictures; the size of its bumps */
+          uniform float Ka = 0, Kd = 0, Ks = 0.6, roughness = 0.05;           /* of the glass itself: parts of light, highlight width */
           )
 {
   normal Nf = faceforward(normalize(N), I);

@@ -10,17 +10,17 @@
 #include "projectedpicture.h"
 
 surface
-waterbag(uniform string part = "front";
+waterbag(uniform string part = "front";     /* or "back" */
          uniform string envmap = "";        /* of pass 1; "" for none */
          uniform string envspace = "world"; /* its axes */
          uniform string back = "";          /* picture of pass 2 */
          uniform string contents = "";      /* picture of pass 3 */
-         uniform float eta = 1.33;
-         uniform float Kreflect = 1, Krefract = 1;
+         uniform float eta = 1.33;          /* refractive index of the inside: water */
+         uniform float Kreflect = 1, Krefract = 1;  /* strengths of mirroring, 1: as physics says, and of what is seen through */
          uniform float waves = 0.1, wavesize = 0.4; /* of the skin: height as a part of their size, shader space */
          uniform float bend = 0.15;         /* how far pictures behind are moved, as a part of them, where the skin is seen edge on */
-         uniform color tint = color (0.9, 0.97, 1);
-         uniform float Ks = 0.8, roughness = 0.03;
+         uniform color tint = color (0.9, 0.97, 1); /* of what is seen through each half */
+         uniform float Ks = 0.8, roughness = 0.03;  /* highlights of lamps; their width */
          )
 {
   point q = transform("shader", P) / wavesize;

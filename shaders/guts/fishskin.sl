@@ -9,19 +9,19 @@ surface
 fishskin(uniform string gutmap = "";      /* of this frame; "" for none */
          uniform float mipmapped = 0;      /* 1: let large blurs use the levels of a mip-map */
          uniform float gutblur = 0.25;     /* how far organs are diffused, shader space; more than the skeleton */
-         uniform float skelblur = 0.08;
+         uniform float skelblur = 0.08;    /* the same of the skeleton */
          uniform float core = 0.4;         /* blur of the dark core, as a part of those */
          uniform float thin = 0.6;         /* part of the blur when the fish is seen edge on */
-         uniform color gutcolor = color (0.45, 0.3, 0.12);
-         uniform color skelcolor = color (0.75, 0.6, 0.35);
+         uniform color gutcolor = color (0.45, 0.3, 0.12); /* of the halo of organs */
+         uniform color skelcolor = color (0.75, 0.6, 0.35); /* of that of the skeleton */
          uniform float gutshow = 0.8, skelshow = 0.6; /* how much of the halo shows, 0 to 1 */
          uniform float gutdark = 0.8, skeldark = 0.7; /* how much the cores keep light from coming through */
          varying float inside = 1;         /* primitive variable: 0 on fins, in front of which nothing is inside */
-         uniform color skincolor = color (1, 0.82, 0.1);
-         uniform float Ka = 1, Kd = 0.7, Ks = 0.4, roughness = 0.12;
+         uniform color skincolor = color (1, 0.82, 0.1); /* times Cs */
+         uniform float Ka = 1, Kd = 0.7, Ks = 0.4, roughness = 0.12; /* parts of ambient, diffuse, specular light; highlight width */
          uniform float Kback = 0.8;        /* light that comes through from behind */
          output varying float organs = 0;  /* what was seen, for passes and tests */
-         output varying float skeleton = 0;
+         output varying float skeleton = 0; /* both 0 to 1 */
          )
 {
   normal Nf = faceforward(normalize(N), I);

@@ -4,13 +4,13 @@
  * (0: as much work as gather) and can look at the half space adaptively.
  */
 surface
-ambientocclusion(uniform string method = "occlusion";
-                 uniform float samples = 64;
+ambientocclusion(uniform string method = "occlusion"; /* or "gather" */
+                 uniform float samples = 64;          /* rays a point */
                  uniform float minsamples = 0;        /* adaptive from so many; 0: not. Below 64 there is little to go by */
                  uniform float maxdist = 1e30;        /* things farther away hide nothing */
                  uniform float coneangle = PI / 2;    /* half angle of what counts of the sky */
                  uniform string subset = "";          /* groups that hide; "": all */
-                 output varying float occluded = 0;
+                 output varying float occluded = 0;   /* the hidden part, 0 to 1 */
                  )
 {
   normal Ns = shadingnormal(N);

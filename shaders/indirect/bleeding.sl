@@ -3,15 +3,15 @@
  * The bounce is not looked for where Attribute "trace" "maxdiffusedepth" forbids it: 0 leaves what matte.sl gives.
  */
 surface
-bleeding(uniform float Kd = 1;
-         uniform float Kindirect = 1;
+bleeding(uniform float Kd = 1;                      /* part of all light that is reflected, 0 to 1 */
+         uniform float Kindirect = 1;               /* strength of the bounce; 0: none */
          uniform string method = "indirectdiffuse"; /* or "gather": at every point, without interpolation */
-         uniform float samples = 64;
+         uniform float samples = 64;                /* rays a point */
          uniform float minsamples = 0;   /* adaptive from so many; 0: not */
          uniform float maxdist = 1e30;   /* farther surfaces give nothing */
          uniform string envmap = "";     /* light from where there is no surface; "": none */
-         uniform string envspace = "world";
-         output varying color indirect = 0;
+         uniform string envspace = "world"; /* the axes of envmap */
+         output varying color indirect = 0; /* the light of the bounce, before Cs and Kd */
          )
 {
   normal Ns = shadingnormal(N);

@@ -5,9 +5,9 @@
 #include "tracedshadow.h"
 
 light
-cosinelight(uniform float intensity = 1;
-            uniform color lightcolor = 1;
-            uniform point from = point "shader" (0, 0, 0);
+cosinelight(uniform float intensity = 1; /* brightness at distance 1 straight ahead */
+            uniform color lightcolor = 1;                           /* of the lamp */
+            uniform point from = point "shader" (0, 0, 0);          /* where it is */
             uniform vector axis = vector "shader" (0, -1, 0);       /* where it looks */
             uniform float falloff = 2;                              /* 2: as physics says */
             uniform vector shadowmove = vector "shader" (0, 0, 0);  /* from the lamp to where shadows come from */

@@ -2,9 +2,9 @@
 #include "tracedshadow.h"
 
 light
-cosinelight_rts(uniform float intensity = 1;
-                uniform color lightcolor = 1;
-                uniform point from = point "shader" (0, 0, 0);
+cosinelight_rts(uniform float intensity = 1; /* brightness at distance 1 straight below */
+                uniform color lightcolor = 1; /* of the lamp */
+                uniform point from = point "shader" (0, 0, 0); /* where it is */
                 )
 {
   uniform vector axis = vector "shader" (0, -1, 0);

@@ -9,11 +9,11 @@
 surface
 environmentlit(uniform string method = "occlusion"; /* or "gather" */
                uniform string lookup = "each";      /* or "direction" */
-               uniform string envmap = "";
+               uniform string envmap = "";          /* latitudes and longitudes, or a cube */
                uniform string envspace = "world";   /* its axes */
                uniform float blur = 0;              /* of lookups, as a part of the map */
-               uniform float samples = 64;
-               uniform float Kd = 1;
+               uniform float samples = 64;          /* rays a point */
+               uniform float Kd = 1;                /* part of the light that is reflected, 0 to 1 */
                output varying float occluded = 0;   /* part of the half space that is hidden */
                )
 {

@@ -1,12 +1,12 @@
 /* occlusionlight.sl: the light of an overcast sky for shaders that know only diffuse(): every point gets what of the sky it sees. */
 light
-occlusionlight(uniform float intensity = 1;
-               uniform color lightcolor = 1;
-               uniform float samples = 64;
-               uniform float maxdist = 1e30;
-               uniform float coneangle = PI / 2;
-               uniform string subset = "";
-               output float __nonspecular = 1;
+occlusionlight(uniform float intensity = 1; /* of the whole sky */
+               uniform color lightcolor = 1; /* of the sky */
+               uniform float samples = 64;   /* rays a point */
+               uniform float maxdist = 1e30; /* things farther away hide nothing, "current" space */
+               uniform float coneangle = PI / 2; /* half angle of what counts of the sky, radians */
+               uniform string subset = "";       /* groups that hide; "": all */
+               output float __nonspecular = 1;   /* it makes no highlights */
                )
 {
   normal Nf = shadingnormal(N);

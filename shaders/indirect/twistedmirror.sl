@@ -1,8 +1,8 @@
 /* twistedmirror.sl: a mirror with a mind of its own: reflections that go towards `twist` are drawn farther that way. */
 surface
-twistedmirror(uniform float Kr = 1;
+twistedmirror(uniform float Kr = 1;                    /* part of light that is mirrored, 0 to 1 */
               uniform vector twist = vector (0, 0, 0); /* in shader space; its length says how strongly; none: a plain mirror */
-              uniform color background = 0;
+              uniform color background = 0;            /* seen where there is nothing */
               )
 {
   normal Nn = normalize(N);

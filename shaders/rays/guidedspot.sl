@@ -13,9 +13,9 @@
 
 light
 guidedspot(float intensity = 1;                   /* brightness at distance 1 on the axis */
-           color lightcolor = 1;
-           point from = point "shader" (0, 0, 0);
-           point to = point "shader" (0, 0, 1);
+           color lightcolor = 1;                  /* of the lamp */
+           point from = point "shader" (0, 0, 0); /* where the lamp is */
+           point to = point "shader" (0, 0, 1);   /* where it looks */
            float coneangle = radians(30);         /* from the axis to the edge of the cone */
            float conedeltaangle = radians(5);     /* width of the soft edge, inside the cone */
            float beamdistribution = 2;            /* the larger, the faster the light falls off beside the axis */
@@ -42,7 +42,7 @@ guidedspot(float intensity = 1;                   /* brightness at distance 1 on
       else if (trace == 0)
         through = 1 - shadow(shadowmap, Ps, "bias", mapbias);
       else
-        through = color transmission(Ps, from, "samples", shadowrays(samples), "samplecone", atan(radius, distance));
+        through = softshadow(Ps, from, radius, samples);
     }
     Cl = falloff * intensity * lightcolor * through;
   }

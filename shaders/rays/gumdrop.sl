@@ -3,7 +3,7 @@
  * With d the mean distance of what is inside, the coating counts with (d / depth)^(log falloff / log 1/2): falloff at half the depth.
  */
 surface
-gumdrop(uniform float Ka = .1, Kd = .2, Ks = .65, roughness = .04;
+gumdrop(uniform float Ka = .1, Kd = .2, Ks = .65, roughness = .04; /* of the coat: parts of ambient, diffuse, specular light; highlight width */
         uniform float depth = 2;        /* farther in nothing is seen */
         uniform float falloff = .955;   /* part of the coating at half the depth, 0 to 1 */
         uniform float samples = 1;      /* antialias what is inside, also with a cone of 0 */

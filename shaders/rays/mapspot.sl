@@ -9,9 +9,9 @@
 
 light
 mapspot(float intensity = 1;                   /* brightness at distance 1 on the axis */
-        color lightcolor = 1;
-        point from = point "shader" (0, 0, 0);
-        point to = point "shader" (0, 0, 1);
+        color lightcolor = 1;                  /* of the lamp */
+        point from = point "shader" (0, 0, 0); /* where the lamp is */
+        point to = point "shader" (0, 0, 1);   /* where it looks */
         float coneangle = radians(30);         /* from the axis to the edge of the cone */
         float conedeltaangle = radians(5);     /* width of the soft edge, inside the cone */
         float beamdistribution = 2;            /* the larger, the faster the light falls off beside the axis */

@@ -1,14 +1,14 @@
 /* mirror.sl: what is seen in a mirror, sharp or as in brushed metal, with a label on its rays by which other shaders know them. */
 surface
-mirror(uniform float Kr = 1;
+mirror(uniform float Kr = 1;         /* part of light that is mirrored, 0 to 1; times Cs */
        uniform float blur = 0;       /* half angle of the cone of rays, radians */
-       uniform float samples = 1;
+       uniform float samples = 1;    /* rays a point */
        uniform string label = "";    /* on the rays: rayinfo("label") at the hit */
        uniform string subset = "";   /* groups that are seen; "": all */
        uniform string envmap = "";   /* seen where there is nothing else; "": background */
-       uniform string envspace = "world";
-       uniform color background = 0;
-       uniform float Ks = 0, roughness = 0.05;
+       uniform string envspace = "world"; /* the axes of envmap */
+       uniform color background = 0;      /* seen where there is nothing, without envmap */
+       uniform float Ks = 0, roughness = 0.05; /* highlights of lamps; their width */
        )
 {
   normal Nf = faceforward(normalize(N), I);

@@ -1,6 +1,6 @@
 /* normalmirror.sl: a mirror that shows the normals of what is in it as colours: (N + 1) / 2 in the space asked for. */
 surface
-normalmirror(uniform string space = "world";
+normalmirror(uniform string space = "world"; /* any coordinate system */
              uniform float shaded = 1;       /* 1: normals as the hit shaders leave them; 0: before they run, which need not run then */
              uniform color background = 0.1; /* seen where there is nothing */
              )

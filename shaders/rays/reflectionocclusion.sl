@@ -4,9 +4,9 @@
  * drafts. minsamples = samples shoots all.
  */
 surface
-reflectionocclusion(uniform float minsamples = 4, samples = 32;
+reflectionocclusion(uniform float minsamples = 4, samples = 32; /* rays a point: at least, at most */
                     uniform float blur = 0;      /* half angle of the cone of rays, radians; 0: the samples antialias */
-                    uniform float maxdist = 1e30;
+                    uniform float maxdist = 1e30;               /* things farther away do not count, "current" space */
                     uniform float visualize = 0; /* 1: shows where all samples were taken, in red */
                     output varying float blocked = 0; /* 0 to 1 */
                     output varying float shot = 0;    /* rays */

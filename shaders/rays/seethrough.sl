@@ -5,8 +5,8 @@
  *   "step"      the same by gathers that begin anew behind each hit: the way without traverse, slower
  */
 surface
-seethrough(uniform string method = "traverse";
-           uniform float Kr = 1;
+seethrough(uniform string method = "traverse"; /* see above */
+           uniform float Kr = 1;               /* part of light that is mirrored, 0 to 1; times Cs */
            uniform color background = 0;    /* what is seen where there is nothing */
            uniform string envmap = "";      /* or a map of it, in space "world" */
            uniform float threshold = 0.996; /* opacity that counts as opaque */

@@ -8,9 +8,9 @@
 
 light
 shadowdistant(float intensity = 1;                   /* brightness */
-              color lightcolor = 1;
+              color lightcolor = 1;                  /* of the light */
               point from = point "shader" (0, 0, 0); /* only the direction from one to the other counts */
-              point to = point "shader" (0, 0, 1);
+              point to = point "shader" (0, 0, 1);   /* where it shines to */
               float samples = 1;                     /* shadow rays a point */
               float minsamples = 0;                  /* where so many agree, no more are shot; 0: always all */
               float blur = 0;                        /* half angle of the lamp, radians: 0.0047 is the sun's */
@@ -23,10 +23,7 @@ shadowdistant(float intensity = 1;                   /* brightness */
               )
 {
   uniform vector axis = normalize(to - from);
-  uniform float first = minsamples > 0 ? minsamples : samples;
   solar(axis, 0) {
-    uniform float rays = shadowrays(samples);
-    Cl = intensity * lightcolor * transmission(Ps, Ps - far * axis, "samples", rays, "minsamples", min(first, rays), "samplecone",
-                                               blur, "bias", bias, "subset", subset);
+    Cl = intensity * lightcolor * shadowthrough(Ps, Ps - far * axis, samples, minsamples, blur, bias, subset);
   }
 }

@@ -10,9 +10,9 @@
 
 light
 shadowspot(float intensity = 1;                   /* brightness at distance 1 on the axis */
-           color lightcolor = 1;
-           point from = point "shader" (0, 0, 0);
-           point to = point "shader" (0, 0, 1);
+           color lightcolor = 1;                  /* of the lamp */
+           point from = point "shader" (0, 0, 0); /* where the lamp is */
+           point to = point "shader" (0, 0, 1);   /* where it looks */
            float coneangle = radians(30);         /* from the axis to the edge of the cone */
            float conedeltaangle = radians(5);     /* width of the soft edge, inside the cone */
            float beamdistribution = 2;            /* the larger, the faster the light falls off beside the axis */
@@ -28,17 +28,12 @@ shadowspot(float intensity = 1;                   /* brightness at distance 1 on
            )
 {
   uniform vector A = normalize(to - from);
-  uniform float first = minsamples > 0 ? minsamples : samples;
-
   illuminate(from, A, coneangle) {
     float distance = length(L);
     float c = (L . A) / distance;
     float falloff = pow(c, beamdistribution) / (distance * distance);
     falloff *= smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c);
     float cone = radius > 0 ? atan(radius, distance) : blur;
-    uniform float rays = shadowrays(samples);
-    color through = transmission(Ps, from, "samples", rays, "minsamples", min(first, rays), "samplecone", cone, "bias", bias,
-                                 "subset", subset);
-    Cl = falloff * intensity * lightcolor * through;
+    Cl = falloff * intensity * lightcolor * shadowthrough(Ps, from, samples, minsamples, cone, bias, subset);
   }
 }

@@ -2,7 +2,7 @@
  * over it. What the camera does not see is not baked: Attribute "cull" "hidden" 0 and "backfacing" 0 keep it.
  */
 surface
-bakemesh(uniform string file = "mesh.ply";)
+bakemesh(uniform string file = "mesh.ply"; /* that is written */)
 {
   bakemesh(file, transform("world", P), normalize(ntransform("world", normalize(N))));
   Ci = Oi = 1;

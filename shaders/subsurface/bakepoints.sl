@@ -5,8 +5,8 @@
 #include "subsurface.h"
 
 surface
-bakepoints(uniform string file = "points.ply";
-           uniform float lit = 0;
+bakepoints(uniform string file = "points.ply"; /* that is written */
+           uniform float lit = 0;   /* 1: with their light */
            uniform string map = ""; /* colours of the points, by s and t */
            )
 {

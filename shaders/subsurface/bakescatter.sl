@@ -8,9 +8,9 @@ surface
 bakescatter(varying point ScatterPref = point (0, 0, 0);          /* where the surface is, in its own space */
             uniform string ScatterActualObject = "actualobject";  /* the name of that space */
             uniform float ScatterFace = 0;                        /* the number of the face in its mesh */
-            output varying point ScatterP = point (0, 0, 0);
-            output varying normal ScatterN = normal (0, 0, 0);
-            output varying float ScatterA = 0;
+            output varying point ScatterP = point (0, 0, 0);      /* of the pixel, "world" space */
+            output varying normal ScatterN = normal (0, 0, 0);    /* length 1 */
+            output varying float ScatterA = 0;                    /* area, "world" space */
             output varying float ScatterF = 0;                    /* that number, for maps by faces */
             )
 {

@@ -22,7 +22,7 @@ bufferskin(uniform float scatter = 1;        /* 0 to 1: part of the light that g
            uniform float samples = 32;       /* of diffusion, for each light */
            uniform float Ksingle = 0;        /* 0 to 1 */
            uniform float g = 0.6;            /* mean cosine of scattering, -1 to 1 */
-           uniform float singlesamples = 8;
+           uniform float singlesamples = 8;  /* of single scattering, for each light */
            uniform float innersoft = 1;      /* mm behind the bones at which light is gone */
            uniform float cell = 2, depth = 0.12; /* of the relief: width of cells and depth of creases, mm; 0: smooth */
            uniform float Kcoat = 1;          /* 0 to 1 */

@@ -10,7 +10,7 @@
 #include "translucency.h"
 
 surface
-translucent(uniform string phase = "trace";
+translucent(uniform string phase = "trace"; /* see above */
             /* Blobs, in x and y of shader space. */
             uniform float period = 4;   /* blobs a unit */
             uniform float noisy = 1;    /* features of the noise that moves them, a blob */
@@ -19,18 +19,18 @@ translucent(uniform string phase = "trace";
             uniform float size = .48;   /* radius of blobs, in blobs; 0.58 leaves no room between them */
             uniform float edge = .02;   /* softness of their edges */
             /* The material. */
-            uniform float Ka = 1, Kd = .5, Ks = .5, roughness = .1;
-            uniform color specularcolor = 1;
+            uniform float Ka = 1, Kd = .5, Ks = .5, roughness = .1; /* of the clear part: parts of light, highlight width */
+            uniform color specularcolor = 1;                        /* of highlights */
             uniform color tint = 1;     /* of what is seen through it */
             /* By rays. */
             uniform float angle = 2.5;  /* half angle of the cone of rays, degrees */
-            uniform float samples = 128;
+            uniform float samples = 128; /* rays a point, for the camera */
             uniform float falloff = .25; /* part of the samples at points that rays see; 1: all of them */
             /* By passes. */
             uniform string background = "";      /* picture of what is behind */
             uniform string backgrounddepth = ""; /* and its depths: blur by distance, with angle; "" takes rad everywhere */
             uniform float rad = .01;             /* half width of the blur, as a part of the picture */
-            output varying float blob = 0;
+            output varying float blob = 0;       /* 1 where it is frosted */
             )
 {
   point Pshade = transform("shader", P);

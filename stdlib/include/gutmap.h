@@ -26,11 +26,12 @@ float gutblur(point P; float amount) {
   return sqrt(xcomp(move) * xcomp(move) + ycomp(move) * ycomp(move));
 }
 
-/* 1 when a body that is long in y and z of shader space and thin in x is seen from its flat side, down to 0 when it is seen edge on. */
+/* 1 when a body that is thin in x of shader space is seen from its flat side, down to 0 when it is seen edge on: the cosine between the
+ * thin axis and the view. (The course takes x times y of a turned (0, 1, 1), which is the same for a body that swims level, and 0 also for
+ * the flat side of one that swims steeply.)
+ */
 float flatside() {
-  vector side = normalize(vtransform("shader", "camera", vector (0, 1, 1)));
-  /* x y is at most 1/2 for a direction of length 1. */
-  return min(2 * abs(xcomp(side) * ycomp(side)), 1);
+  return abs(zcomp(normalize(vtransform("shader", "camera", vector (1, 0, 0)))));
 }
 
 /* The same blur for a body that is thin: thin times as large when seen edge on. */

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Small{"bag", 0.2, "passes.exr"}, Small{"bleeding", 0.2, "indirectdiffuse256.exr"},
                       Small{"bust", 0.15, "sunny.exr"}, Small{"cards", 0.25, "traverse.exr"},
                       Small{"coral", 0.15, "coral.exr"}, Small{"cornell", 0.2, "bounce.exr"},
-                      Small{"environment", 0.2, "occlusion_each.exr"}, Small{"frosted", 0.15, "frosted.exr"},
+                      Small{"environment", 0.2, "occlusion_each.exr"}, Small{"frosted", 0.15, "passes.exr"},
                       Small{"guidedshadows", 0.2, "guided.exr"}, Small{"gumdrop", 0.25, "f0.6_0.14.exr"},
                       Small{"guts", 0.2, "fish.exr"}, Small{"jar", 0.2, "passes.exr"},
                       Small{"labels", 0.25, "labels.exr"}, Small{"occlusion", 0.2, "adaptive.exr"},

@@ -1,6 +1,7 @@
 // Whole frames with known answers: areas, depths, watertight surfaces, clipping, crop windows, threads.
 #include "tests/render/render_text.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -358,6 +359,31 @@ TEST(Frame, a_depth_mask_leaves_out_one_side) {
   };
   EXPECT_EQ(depths(false), std::pair(6.0f, Image::kEmptyDepth));
   EXPECT_EQ(depths(true), std::pair(2.0f, 2.0f));
+}
+
+TEST(Frame, grids_that_a_depth_mask_leaves_out_are_not_shaded) {
+  // Two balls, two buckets apart. The mask is at 5 in the left half, the right half of it is empty.
+  DepthMask mask{2, 1, {5, Image::kEmptyDepth}, false, 0.01f};
+  FrameSettings s;
+  s.mask = &mask;
+  auto shaded = [&](bool masked, bool reverse, float z, const std::string& attribute = "") {
+    mask.reverse = reverse;
+    s.mask = masked ? &mask : nullptr;
+    std::string ball =
+        fmt::format("Translate -1.3 0 {} Sphere .6 -.6 .6 360 Translate 2.6 0 0 Sphere .6 -.6 .6 360 ", z);
+    Rendered r = render_text("Format 128 64 1 WorldBegin " + attribute + ball + "WorldEnd", s);
+    EXPECT_EQ(r.messages, "");
+    return r.report.shaded_grids;
+  };
+  const size_t both = shaded(false, false, 8);
+  EXPECT_GT(both, 2u);
+  EXPECT_EQ(shaded(true, false, 8), both / 2);
+  EXPECT_EQ(shaded(true, false, 3), 0u);
+  EXPECT_EQ(shaded(true, true, 8), both / 2);
+  EXPECT_EQ(shaded(true, true, 3), shaded(false, true, 3));
+  // Unless baking needs them.
+  const std::string kept = "Attribute \"cull\" \"int hidden\" 0 ";
+  EXPECT_EQ(shaded(true, false, 3, kept), shaded(false, false, 3, kept));
 }
 
 TEST(Frame, hidden_grids_are_not_shaded) {

@@ -3,7 +3,7 @@
 import argparse
 import math
 
-from mesh import Mesh
+from mesh import Mesh, add, scaled, sheet, sub
 
 # Along the body: z, middle y, half height, half width.
 BODY = [(1.02, -0.14, 0.035, 0.03), (0.97, -0.135, 0.075, 0.05), (0.86, -0.1, 0.15, 0.075), (0.72, -0.04, 0.27, 0.1),
@@ -34,58 +34,57 @@ def body():
     return [mesh]
 
 
-def sheet(columns, thick=0.012):
-    """A fin of columns of points, from its root to its edge, each column as long: two skins."""
-    mesh = Mesh()
-    rings = []
-    for column in columns:
-        n = len(column) - 1
-        sides = [[(x + s * thick * (1 - 0.75 * k / n), y, z) for k, (x, y, z) in enumerate(column)] for s in (1, -1)]
-        rings.append(mesh.ring(sides[0] + sides[1][::-1]))
-    mesh.shell(rings)
-    return mesh
+def fin(rays, thick=0.016):
+    """Skin over rays, each a list of points from the root to the edge: every second column of the sheet is a ray, thicker than the skin
+    between, whose edge hangs in."""
+    columns = []
+    for a, b in zip(rays, rays[1:]):
+        skin = []
+        for k, (p, q) in enumerate(zip(a, b)):
+            hang = 1 - 0.05 * (k / (len(a) - 1)) ** 4
+            middle = scaled(add(p, q), 0.5)
+            skin.append(add(a[0], scaled(sub(middle, a[0]), hang)))
+        columns += [a, skin]
+    columns.append(rays[-1])
+    return sheet(columns, thick, [0.25 if i % 2 else 1 for i in range(len(columns))])
+
+
+def steps_of(count):
+    return [k / (count - 1) for k in range(count)]
 
 
 def fins():
     def border(first, last, side, height, lean):
         """Along the back (side 1) or the belly (-1), from z first to last."""
-        columns = []
-        for i in range(15):
-            t = i / 14
+        rays = []
+        for t in steps_of(30):
             z = first + t * (last - first)
             y, h, _ = along(z)
-            tall = height * math.sin(math.pi * min(1, 0.12 + 0.88 * t)) ** 0.55 * (1 - 0.12 * (i % 2))
+            tall = height * (0.3 + 0.7 * math.sin(math.pi * min(1, 0.1 + 1.02 * t)) ** 0.7) * min(1, 9 * (1.02 - t)) * min(1, 0.25 + 8 * t)
             root = y + side * (h - 0.04)
-            columns.append([(0, root + side * k / 3 * (tall + 0.04), z - lean * tall * k / 3) for k in range(4)])
-        return sheet(columns)
+            rays.append([(0, root + side * v * (tall + 0.04), z - lean * tall * (0.4 + 0.6 * v) * v) for v in steps_of(5)])
+        return fin(rays)
 
     tail = []
-    for i in range(9):
-        v = i / 4 - 1 # -1 to 1 across
-        long = 0.22 + 0.16 * v * v
-        tail.append([(0, v * (0.085 + 0.33 * (k / 3) ** 0.8), -0.82 - k / 3 * long * (1 + 0.06 * (i % 2))) for k in range(4)])
-    return [border(0.5, -0.76, 1, 0.26, 0.55), border(0.1, -0.76, -1, 0.22, 0.6), sheet(tail)]
+    for u in steps_of(19):
+        v = 2 * u - 1 # across
+        long = 0.2 + 0.2 * abs(v) ** 1.8
+        tail.append([(0, v * (0.075 + 0.34 * k ** 0.9), -0.8 - k * long) for k in steps_of(5)])
+    return [border(0.5, -0.76, 1, 0.27, 0.75), border(0.12, -0.76, -1, 0.24, 0.8), fin(tail)]
 
 
 def pectorals():
+    """A fan on each side, its root behind the gill, spread back and down."""
     made = []
     for side in (1, -1):
-        columns = []
-        for i in range(7):
-            a = math.radians(-28 + 11 * i)
-            long = 0.3 - 0.035 * abs(i - 3)
-            columns.append([(side * (0.125 + 0.3 * long * k / 3), -0.1 + 0.025 * (i - 3) + long * k / 3 * math.sin(a) * 0.8,
-                             0.36 - long * k / 3 * math.cos(a)) for k in range(4)])
-        made.append(sheet(columns, 0.008))
+        rays = []
+        for u in steps_of(13):
+            a = math.radians(-56 + 66 * u) # up from straight back
+            long = 0.4 * (0.35 + 0.65 * math.sin(math.pi * (0.08 + 0.8 * u)))
+            root = (side * 0.118, -0.1 + 0.06 * (u - 0.5), 0.38 + 0.02 * u)
+            rays.append([add(root, (side * 0.28 * long * v, long * v * math.sin(a), -long * v * math.cos(a))) for v in steps_of(5)])
+        made.append(fin(rays, thick=0.009))
     return made
-
-
-def tube(points, radii, sides=6):
-    mesh = Mesh()
-    rings = [mesh.ring([(x + r * math.cos(2 * math.pi * i / sides), y + r * math.sin(2 * math.pi * i / sides), z) for i in range(sides)])
-             for (x, y, z), r in zip(points, radii)]
-    mesh.shell(rings)
-    return mesh
 
 
 def organs():
@@ -106,21 +105,20 @@ def skeleton():
     def spine(z):
         return 0.09 * math.sin(math.pi * (z + 0.86) / 1.6)
     zs = [0.62 - 1.5 * i / 20 for i in range(21)]
-    made = [tube([(0, spine(z), z) for z in zs], [0.03 - 0.016 * i / 20 + 0.007 * (i % 2) for i in range(21)])]
+    back = Mesh()
+    back.tube([(0, spine(z), z) for z in zs], [0.03 - 0.016 * i / 20 + 0.007 * (i % 2) for i in range(21)])
+    made = [back]
     for i in range(12): # bones up and down from it
         z = 0.3 - 0.085 * i
         y, h, _ = along(z)
         for side in (1, -1):
             tip = y + side * 0.78 * h
-            steps = [k / 4 for k in range(5)]
             bone = Mesh()
-            rings = []
-            for t in steps:
-                p, r = (spine(z) + t * (tip - spine(z)), z - 0.13 * t - 0.03 * t * t), 0.011 * (1 - 0.6 * t)
-                rings.append(bone.ring([(r * math.cos(a), p[0], p[1] + r * math.sin(a)) for a in (2 * math.pi * i / 4 for i in range(4))]))
-            bone.shell(rings)
+            bone.tube([(0, spine(z) + v * (tip - spine(z)), z - 0.13 * v - 0.03 * v * v) for v in steps_of(5)],
+                      [0.015 * (1 - 0.6 * v) for v in steps_of(5)], 4)
             made.append(bone)
-    skull = tube([(0, 0.0, 0.9), (0, 0.02, 0.84), (0, 0.05, 0.74), (0, 0.08, 0.62), (0, 0.07, 0.52)], [0.02, 0.06, 0.1, 0.11, 0.05], 8)
+    skull = Mesh()
+    skull.tube([(0, 0.0, 0.9), (0, 0.02, 0.84), (0, 0.05, 0.74), (0, 0.08, 0.62), (0, 0.07, 0.52)], (0.02, 0.06, 0.1, 0.11, 0.05), 8)
     return made + [skull]
 
 

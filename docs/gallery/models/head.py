@@ -8,24 +8,10 @@ import pathlib
 import sys
 
 from mesh import add, scaled, sub
-from solids import Solid, ball, ellipsoid, frame, half_space, rod, surface
+from solids import Solid, ball, ellipsoid, frame, half_space, rod, steps, surface, symmetric
 
 EYE, EYE_RADIUS = (0.15, 0.475, -0.265), 0.095
 BOTTOM = -0.42
-
-
-def steps(*runs):
-    """Planes from a list of (up to, step): the first entry is where they begin."""
-    at = [runs[0]]
-    for end, step in runs[1:]:
-        count = max(round((end - at[-1]) / step), 1)
-        begin = at[-1]
-        at += [begin + (end - begin) * (i + 1) / count for i in range(count)]
-    return at
-
-
-def symmetric(planes):
-    return [-x for x in reversed(planes) if x > 0] + planes
 
 
 def skull(s, thinner=0.0):

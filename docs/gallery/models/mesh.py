@@ -79,6 +79,19 @@ class Mesh:
             self.face(list(reversed(rings[0])))
             self.face(rings[-1])
 
+    def tube(self, path, radii, sides=6):
+        """Round a path of at least two points, as thick at each as its radius says."""
+        across = cross(sub(path[1], path[0]), (0.31, 0.87, 0.38))
+        rings = []
+        for i, (p, r) in enumerate(zip(path, radii)):
+            along = unit(sub(path[min(i + 1, len(path) - 1)], path[max(i - 1, 0)]))
+            # What is left of the last ring's axis: no ring is twisted against the next.
+            across = unit(sub(across, scaled(along, dot(across, along))))
+            other = cross(along, across)
+            turns = [2 * math.pi * k / sides for k in range(sides)]
+            rings.append(self.ring([add(p, add(scaled(across, r * math.cos(a)), scaled(other, r * math.sin(a)))) for a in turns]))
+        self.shell(rings)
+
     def box(self, low, high):
         (x, y, z), (u, v, w) = low, high
         c = [self.point(p) for p in ((x, y, z), (u, y, z), (u, y, w), (x, y, w), (x, v, z), (u, v, z), (u, v, w), (x, v, w))]
@@ -107,3 +120,17 @@ class Mesh:
         text = f"PointsPolygons {counts} {corners}" if scheme == "polygons" else \
             f"SubdivisionMesh \"{scheme}\" {counts} {corners} [ \"interpolateboundary\" ] [ 0 0 ] [ ] [ ]"
         return text + " \"P\" " + numbers(x for p in self.points for x in p) + "\n"
+
+
+def sheet(columns, thick=0.012, weights=None):
+    """Two skins of columns of points, from the root of a fin or a wing to its edge, each column as long; so thick across x, at the root and a
+    quarter of that at the edge. Weights, one a column, are parts of that thickness."""
+    mesh = Mesh()
+    weights = weights or [1] * len(columns)
+    rings = []
+    for column, weight in zip(columns, weights):
+        n = len(column) - 1
+        sides = [[(x + s * thick * weight * (1 - 0.75 * k / n), y, z) for k, (x, y, z) in enumerate(column)] for s in (1, -1)]
+        rings.append(mesh.ring(sides[0] + sides[1][::-1]))
+    mesh.shell(rings)
+    return mesh

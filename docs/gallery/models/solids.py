@@ -55,6 +55,20 @@ def frame(along, up):
     return u, v, cross(u, v)
 
 
+def steps(*runs):
+    """Planes from a list of (up to, step): the first entry is where they begin."""
+    at = [runs[0]]
+    for end, step in runs[1:]:
+        count = max(round((end - at[-1]) / step), 1)
+        begin = at[-1]
+        at += [begin + (end - begin) * (i + 1) / count for i in range(count)]
+    return at
+
+
+def symmetric(planes):
+    return [-x for x in reversed(planes) if x > 0] + planes
+
+
 class Solid:
     """Parts that are added and cut away one after the other. Symmetric about x = 0: parts need to be there for positive x only."""
 

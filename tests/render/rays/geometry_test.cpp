@@ -2,6 +2,7 @@
 // wrong.
 #include "tests/render/rays/ray_scene.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -166,6 +167,30 @@ TEST(RayGeometry, many_small_primitives_share_items) {
                          static_cast<float>(i / 20) * 0.3f - 2 + 0.05f, 0}}) < 10;
   EXPECT_EQ(hits, 300);
   EXPECT_EQ(s.tracer().usage().geometry.made, 1u);
+}
+
+TEST(RayGeometry, surfaces_that_lie_in_one_place) {
+  // One is as good as the other, but it must be that one alone: not its face as one of the other's.
+  std::string small,
+      large = "Attribute \"visibility\" \"int diffuse\" 0 Color 1 0 0 "
+              "Polygon \"P\" [-9 -9 5 9 -9 5 9 9 5 -9 9 5] Attribute \"visibility\" \"int diffuse\" 1 ";
+  for (int i = 0; i < 100; ++i) {
+    const float x = static_cast<float>(i % 10) - 5, y = static_cast<float>(i / 10) - 5;
+    small += fmt::format("Color 0 {} 1 Polygon \"P\" [{} {} 5 {} {} 5 {} {} 5 {} {} 5] ", i / 100.0, x, y,
+                         x + 1, y, x + 1, y + 1, x, y + 1);
+  }
+  for (bool small_first : {true, false}) {
+    RayScene s(kCamera + "WorldBegin " + kSeen + "Surface \"plain\" " +
+                   (small_first ? small + large : large + small) + "WorldEnd",
+               {{"plain", "surface plain() { Oi = 1; Ci = Cs; }"}});
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 at(static_cast<float>(i % 10) - 4.5f, static_cast<float>(i / 10) - 4.5f, 0);
+      const auto colour = s.value({at}, "surface:Ci", Type::kColor);
+      ASSERT_EQ(colour.size(), 3u);
+      const float own = static_cast<float>(i / 100.0);
+      EXPECT_FLOAT_EQ(colour[1], colour[0] == 1 ? 0 : own) << i;
+    }
+  }
 }
 
 TEST(RayGeometry, displaced_surfaces) {
