@@ -221,6 +221,7 @@ Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Sha
   instance->id_ = ++instances_;
   instance->shader_ = std::move(shader);
   instance->shader_to_current_ = options.shader_to_current;
+  invert(options.shader_to_current, instance->current_to_shader_); // singular: all zeros
   Result<BoundValues> values = bind_values(instance->shader_->program(), given, options.shader_to_current);
   if (!values) return Error{values.error()};
   if (fold)

@@ -85,6 +85,7 @@ public:
   ~Instance();
   const Shader& shader() const { return *shader_; }
   const Matrix4& shader_to_current() const { return shader_to_current_; }
+  const Matrix4& current_to_shader() const { return current_to_shader_; } ///< 0 where there is no inverse
   /// The program that runs: the shader's own, or its specialisation for these values.
   const Program& program() const { return specialised_ ? *specialised_ : shader_->program(); }
   /// For lights: the names in __category, in order.
@@ -102,7 +103,7 @@ private:
   uint64_t id_ = 0;
   std::shared_ptr<const Shader> shader_;
   std::unique_ptr<const Program> specialised_;
-  Matrix4 shader_to_current_;
+  Matrix4 shader_to_current_, current_to_shader_;
   std::vector<std::string> categories_;
   std::unique_ptr<Bound> bound_;
 };

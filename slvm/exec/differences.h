@@ -16,7 +16,7 @@ class Differences {
 public:
   Differences(const GridCall& call)
       : grid_(*call.run.state.grid), valid_(call.run.mask.at_level(call.level & ~kScatteredLevel)),
-        everywhere_(call.level == 0),
+        everywhere_(call.level == 0 || mask_all(valid_, call.run.points)),
         differ_(grid_.derivatives && !(call.level & kScatteredLevel && call.run.gathers.any_scattered())) {}
 
   /// Points that follow each other, as their neighbours do: `lo` and `hi` are those of the first, `steps`

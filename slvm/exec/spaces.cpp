@@ -18,7 +18,10 @@ bool named_space(const ShaderRun& run, std::string_view space, bool forward, Mat
     return true;
   };
   if (space == "current" || space.empty()) return known(Matrix4{});
-  if (space == "shader") return known(run.instance.shader_to_current());
+  if (space == "shader") {
+    m = forward ? run.instance.shader_to_current() : run.instance.current_to_shader();
+    return true;
+  }
   if (space == "object") return known(run.state.grid->object_to_current);
   ShadingState state = run.shading_state();
   return forward ? run.state.services.space_to_current(state, space, m)
