@@ -424,8 +424,24 @@ std::bitset<slvm::kGlobalCount> HitShader::read_of_grids(const Work& work, const
   return all ? out.set() : out;
 }
 
+/// The surface shader as far as the outputs ask for it: shadow rays need no lights for an opacity.
+const slvm::Instance* HitShader::narrowed(const slvm::Instance* surface,
+                                          std::span<const slvm::RayOutput> outputs) {
+  std::vector<std::string> names;
+  for (const slvm::RayOutput& out : outputs)
+    if (out.from == From::kSurface) names.emplace_back(out.name);
+  std::sort(names.begin(), names.end());
+  std::pair<uint64_t, std::string> key(surface->id(), {});
+  for (const std::string& name : names)
+    key.second += name + ' ';
+  std::lock_guard lock(narrow_mutex_);
+  auto [it, is_new] = narrow_.try_emplace(std::move(key));
+  if (is_new) it->second = machine_.narrowed(*surface, names);
+  return it->second ? it->second.get() : surface;
+}
+
 HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
-                                   std::span<const slvm::RayOutput> outputs, const Demand& demand) const {
+                                   std::span<const slvm::RayOutput> outputs, const Demand& demand) {
   Work w;
   w.primitive = &primitive;
   const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
@@ -434,8 +450,11 @@ HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& b
   if (!demand.displacement || w.plain) w.set.displacement = nullptr;
   if (!demand.surface || w.plain) w.set.surface = nullptr;
   if (demand.volumes && !w.plain) w.volumes = possible_volumes(batch.from.shaders, w.set);
-  const bool lights = w.set.surface && std::any_of(bound.lights.begin(), bound.lights.end(),
-                                                   [](auto* light) { return differentiates(*light); });
+  if (w.set.surface && !demand.volumes) w.set.surface = narrowed(w.set.surface, outputs);
+  const bool all_of_it = w.set.surface == bound.shaders.surface; // else no light runs
+  const bool lights = all_of_it && w.set.surface &&
+                      std::any_of(bound.lights.begin(), bound.lights.end(),
+                                  [](auto* light) { return differentiates(*light); });
   w.beside = w.any_shader(differentiates) || lights;
   w.done_beside = !lights && std::none_of(w.volumes.begin(), w.volumes.end(),
                                           [](auto* volume) { return differentiates(*volume); });

@@ -7,8 +7,10 @@
 #include "render/shading/bound_shaders.h"
 #include "render/shading/services.h"
 
+#include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace render {
@@ -55,7 +57,8 @@ private:
                   std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
                   uint64_t id);
   Work prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
-               const Demand& demand) const;
+               const Demand& demand);
+  const slvm::Instance* narrowed(const slvm::Instance* surface, std::span<const slvm::RayOutput> outputs);
   static std::bitset<slvm::kGlobalCount> read_of_grids(const Work& work, const BoundAttributes& bound,
                                                        std::span<const slvm::RayOutput> outputs);
   bool is_primitive_mode(const Primitive&, const HitBatch& batch) const;
@@ -76,6 +79,10 @@ private:
       group_; ///< by primitive: number of the group that can be diced together; 0: not known yet
   struct Groups;
   std::unique_ptr<Groups> groups_;
+  /// Surfaces of which only some outputs are wanted, by instance and names; null: all of it is needed.
+  using Narrow = std::map<std::pair<uint64_t, std::string>, std::unique_ptr<const slvm::Instance>>;
+  std::mutex narrow_mutex_;
+  Narrow narrow_;
   std::atomic<size_t> grids_{0}, points_{0};
 };
 

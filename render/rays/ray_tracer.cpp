@@ -79,7 +79,12 @@ RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state,
     out.may_shoot = facts.diffuse_depth < next.most_diffuse_depth;
     ++next.diffuse_depth;
     break;
-  case slvm::RayKind::kTransmission: ++next.shadow_depth; break;
+  case slvm::RayKind::kTransmission:
+    // Lights that a surface's opacity asks for would look for shadows in turn, at each of those surfaces
+    // again.
+    out.may_shoot = facts.type != "transmission" || state.running.shader().kind() != slvm::ShaderKind::kLight;
+    ++next.shadow_depth;
+    break;
   }
   out.may_shoot = out.may_shoot && facts.depth < max_depth_;
   ++next.depth;
