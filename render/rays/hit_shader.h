@@ -34,8 +34,13 @@ public:
             const BoundShaders& shaders, slvm::RendererServices& services);
   ~HitShader() override;
 
-  /// Shades hits (and reorders them) and stores the outputs of each at its ray.
-  void shade(std::vector<HitRay>& hits, const HitBatch& batch, std::span<const slvm::RayOutput> outputs);
+  /// Shades hits and stores the outputs of each at its ray.
+  void shade(std::span<const HitRay> hits, const HitBatch& batch, std::span<const slvm::RayOutput> outputs);
+
+  /// An empty list for the hits of a batch, whose memory is used again: thousands of hits are given back to
+  /// the system by each batch otherwise.
+  std::vector<HitRay> take_list();
+  void give_back(std::vector<HitRay> list);
 
   bool displaces(const Primitive&) const override;
   void positions(const Primitive&, const UvRect&, int nu, int nv, std::vector<Vec3>& P) override;
@@ -52,7 +57,7 @@ private:
   struct Demand;
   struct Work;
   uint32_t group_of(uint32_t primitive);
-  void sort(std::vector<HitRay>& hits);
+  void sort(std::span<const HitRay> hits, Worker& worker);
   void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
                   std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
                   uint64_t id);
@@ -74,6 +79,7 @@ private:
   DiceContext dice_;
   std::mutex workers_mutex_;
   std::vector<std::unique_ptr<Worker>> idle_, idle_displacers_;
+  std::vector<std::vector<HitRay>> lists_;
   std::mutex groups_mutex_;
   std::vector<uint32_t>
       group_; ///< by primitive: number of the group that can be diced together; 0: not known yet

@@ -142,7 +142,7 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   const RayRule rule = g.rule(options.kind, options.subset, options.sides);
   const std::vector<Color> weight = weights(by, batch);
   const bool light = min_weight_ > 0 && !weight.empty();
-  std::vector<HitRay> hits;
+  std::vector<HitRay> hits = hits_.take_list();
   if (!outputs.empty()) hits.reserve(batch.count);
   {
     auto tracing = g.tracing();
@@ -166,6 +166,7 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   seed = hash_of(static_cast<int64_t>(seed), static_cast<int64_t>(by.number(batch, 0)), kHits);
   hits_.shade(hits, {by.state, {batch, weight}, options.kind, options.mode, options.shades, by.next, seed},
               outputs);
+  hits_.give_back(std::move(hits));
 }
 
 RayUsage RayTracer::usage() const {
