@@ -204,35 +204,58 @@ std::vector<std::string> split_categories(const std::string& list) {
 
 } // namespace
 
+/// What an instance is made of.
+struct Machine::Making {
+  std::shared_ptr<const Shader> shader;
+  std::span<const ParamValue> given;
+  const Matrix4& shader_to_current;
+  std::span<const std::string> may_vary;
+  bool fold = true;
+  const std::vector<std::string>* outputs = nullptr; ///< only these are wanted; null: all
+};
+
 Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader,
                                                        std::span<const ParamValue> given,
                                                        const InstanceOptions& options) const {
-  return instantiate(std::move(shader), given, options, options_.specialise);
+  return make({std::move(shader), given, options.shader_to_current, options.may_vary, options_.specialise});
 }
 
 Result<std::unique_ptr<Instance>> Machine::unspecialised(const Instance& light) const {
-  return instantiate(light.shader_, light.bound().given, {light.shader_to_current_, {}}, false);
+  return make({light.shader_, light.bound().given, light.shader_to_current_, {}, false});
 }
 
-Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader,
-                                                       std::span<const ParamValue> given,
-                                                       const InstanceOptions& options, bool fold) const {
+std::unique_ptr<Instance> Machine::narrowed(const Instance& surface,
+                                            std::span<const std::string> outputs) const {
+  const std::vector<std::string> wanted(outputs.begin(), outputs.end());
+  auto made = make({surface.shader_, surface.bound().given, surface.shader_to_current_,
+                    surface.bound().may_vary, options_.specialise, &wanted});
+  return made && (*made)->specialised_ ? std::move(*made) : nullptr;
+}
+
+Result<std::unique_ptr<Instance>> Machine::make(const Making& making) const {
   std::unique_ptr<Instance> instance(new Instance);
   instance->id_ = ++instances_;
-  instance->shader_ = std::move(shader);
-  instance->shader_to_current_ = options.shader_to_current;
-  invert(options.shader_to_current, instance->current_to_shader_); // singular: all zeros
-  Result<BoundValues> values = bind_values(instance->shader_->program(), given, options.shader_to_current);
+  instance->shader_ = making.shader;
+  instance->shader_to_current_ = making.shader_to_current;
+  invert(making.shader_to_current, instance->current_to_shader_); // singular: all zeros
+  const Program& all = instance->shader_->program();
+  Result<BoundValues> values = bind_values(all, making.given, making.shader_to_current);
   if (!values) return Error{values.error()};
-  if (fold)
-    instance->specialised_ = specialise(instance->shader_->program(), *values, options.may_vary, *evaluator_);
+  if (making.fold && making.outputs)
+    instance->specialised_ = narrow(all, *values, making.may_vary, *making.outputs, *evaluator_);
+  else if (making.fold)
+    instance->specialised_ = specialise(all, *values, making.may_vary, *evaluator_);
   const Program& program = instance->program();
   for (size_t i = 0; i < program.params.size(); ++i)
     if (program.params[i].name == "__category" && (*values)[i] && !(*values)[i]->strings.empty())
       instance->categories_ = split_categories((*values)[i]->strings[0]);
   instance->bound_ = std::make_unique<Instance::Bound>();
   Instance::Bound& bound = *instance->bound_;
-  if (instance->shader().kind() == ShaderKind::kLight) bound.given.assign(given.begin(), given.end());
+  const ShaderKind kind = instance->shader().kind();
+  if (kind == ShaderKind::kLight || kind == ShaderKind::kSurface) {
+    bound.given.assign(making.given.begin(), making.given.end());
+    bound.may_vary.assign(making.may_vary.begin(), making.may_vary.end());
+  }
   if (std::string error = bind_code(bound, program, *kernels_, *plugins_); !error.empty())
     return Error{error};
   bind_constants(bound, program, strings_);

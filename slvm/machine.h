@@ -126,6 +126,10 @@ public:
   /// Fails where only the values kept it from a function this build cannot serve.
   Result<std::unique_ptr<Instance>> unspecialised(const Instance& light) const;
 
+  /// A surface again, of which only these predefined variables and output parameters are wanted: what nothing
+  /// else needs is not computed, with its lights and rays. Null: all of it is needed.
+  std::unique_ptr<Instance> narrowed(const Instance& surface, std::span<const std::string> outputs) const;
+
   /// At the end of a frame, when no ShadingContext is left: plug-ins clean up, and begin anew when they are
   /// called again. Returns what they have to say of themselves (RixStats), lines of text. The destructor does
   /// the same.
@@ -143,8 +147,8 @@ public:
   static constexpr size_t kMaxMessages = 1000;
 
 private:
-  Result<std::unique_ptr<Instance>> instantiate(std::shared_ptr<const Shader>, std::span<const ParamValue>,
-                                                const InstanceOptions&, bool fold) const;
+  struct Making; ///< machine.cpp
+  Result<std::unique_ptr<Instance>> make(const Making&) const;
 
   MachineOptions options_;
   const KernelTable* kernels_;

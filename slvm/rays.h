@@ -72,7 +72,6 @@ struct RayOutput {
     kAtmosphere,
     kInterior,
     kExterior,
-    kLight,
     kPrimitive,
     kAttribute,
     kShaded

@@ -22,10 +22,18 @@ uint64_t mix(uint64_t a, uint64_t b) {
 
 HemisphereAim::HemisphereAim(const HemispherePattern& pattern, bool cosine_weighted)
     : pattern_(pattern), cosine_weighted_(cosine_weighted) {
-  for (int i = 0; pattern_.is_net() && i < pattern_.cells(); ++i) {
-    const slvm::SobolSample sample(static_cast<uint32_t>(i));
+  for (int c = 0; c < pattern_.cells(); ++c)
+    block_of_.push_back(static_cast<uint32_t>(pattern_.block_of(c)));
+  if (!pattern_.is_net()) return;
+  // The sequence is linear: its sample a + b, without common bits, is that of a xor that of b.
+  const auto cells = static_cast<uint32_t>(pattern_.cells());
+  for (auto& numbers : sequence_)
+    numbers.resize(cells);
+  for (uint32_t bit = 1; bit < cells; bit *= 2) {
+    const slvm::SobolSample of_bit(bit);
     for (size_t use = 0; use < slvm::kSampleUses; ++use)
-      sequence_[use].push_back(sample.bits[use]);
+      for (uint32_t i = 0; i < bit; ++i)
+        sequence_[use][bit + i] = sequence_[use][i] ^ of_bit.bits[use];
   }
 }
 
@@ -40,56 +48,65 @@ void HemisphereAim::first(const HemispherePoint& point, uint64_t seed) {
 
 void HemisphereAim::others(const HemispherePoint& point, uint64_t seed, std::span<const uint8_t> wanted,
                            std::span<const int> chosen) {
+  if (pattern_.is_net())
+    return draw(point, seed, static_cast<size_t>(pattern_.blocks()), static_cast<size_t>(pattern_.cells()),
+                wanted);
   std::vector<int> cells;
   for (int c = 0; c < pattern_.cells(); ++c)
     if (const auto b = static_cast<size_t>(pattern_.block_of(c)); wanted[b] && chosen[b] != c)
       cells.push_back(c);
-  if (!pattern_.is_net()) return draw_in_cells(point, seed, cells);
-  draw(point, seed, static_cast<size_t>(pattern_.blocks()), static_cast<size_t>(pattern_.cells()));
-  size_t kept = 0;
-  for (size_t i = 0; i < cell.size(); ++i) {
-    if (!wanted[static_cast<size_t>(pattern_.block_of(cell[i]))]) continue;
-    cell[kept] = cell[i];
-    for (size_t c = 0; c < 3; ++c) {
-      direction[c][kept] = direction[c][i];
-      origin[c][kept] = origin[c][i];
-    }
-    ++kept;
-  }
-  cell.resize(kept);
-  for (size_t c = 0; c < 3; ++c) {
-    direction[c].resize(kept);
-    origin[c].resize(kept);
-  }
+  draw_in_cells(point, seed, cells);
 }
 
-/// Samples of the sequence. Passes take one part of it after the other: parts as long as a power of two are
-/// nets, too, and together they are evener than each.
-void HemisphereAim::draw(const HemispherePoint& point, uint64_t seed, size_t first, size_t last) {
+/// Samples of the sequence, only those in blocks that are `wanted` (empty: all). Passes take one part of it
+/// after the other: parts as long as a power of two are nets, too, and together they are evener than each.
+void HemisphereAim::draw(const HemispherePoint& point, uint64_t seed, size_t first, size_t last,
+                         std::span<const uint8_t> wanted) {
   const size_t count = last - first;
-  // The sequence is linear: its sample a + b, without common bits, is that of a xor that of b.
   const slvm::SobolSample offset(point.pass * static_cast<uint32_t>(pattern_.cells()));
-  auto numbers = [&](SampleUse use, std::vector<float>& out) {
+  auto numbers = [&](SampleUse use, size_t how_many, std::vector<float>& out, auto&& bits_of) {
     const auto u = static_cast<size_t>(use);
     const uint32_t scrambling = slvm::scramble_seed(static_cast<uint32_t>(seed ^ seed >> 32), use),
                    shift = offset.bits[u];
     const uint32_t* bits = sequence_[u].data() + first;
-    out.resize(count);
+    out.resize(how_many);
     float* to = out.data();
-    for (size_t i = 0; i < count; ++i)
-      to[i] = slvm::scrambled(bits[i] ^ shift, scrambling);
+    for (size_t i = 0; i < how_many; ++i)
+      to[i] = slvm::scrambled(bits_of(bits, i) ^ shift, scrambling);
   };
-  numbers(SampleUse::kRadius, radius_);
-  numbers(SampleUse::kTurn, turn_);
-  if (point.base > 0) {
-    numbers(SampleUse::kBaseU, base_[0]);
-    numbers(SampleUse::kBaseV, base_[1]);
-  }
+  auto in_order = [](const uint32_t* bits, size_t i) { return bits[i]; };
+  numbers(SampleUse::kRadius, count, radius_, in_order);
+  numbers(SampleUse::kTurn, count, turn_, in_order);
   cell.resize(count);
   const auto rings = static_cast<float>(pattern_.rings), sectors = static_cast<float>(pattern_.sectors);
   for (size_t i = 0; i < count; ++i)
     cell[i] = static_cast<int>(radius_[i] * rings) * pattern_.sectors + static_cast<int>(turn_[i] * sectors);
+  if (!wanted.empty()) keep_wanted(wanted);
+  if (point.base > 0) {
+    auto kept = [this](const uint32_t* bits, size_t i) { return bits[kept_[i]]; };
+    for (size_t k = 0; k < 2; ++k) {
+      const SampleUse use = k == 0 ? SampleUse::kBaseU : SampleUse::kBaseV;
+      if (wanted.empty())
+        numbers(use, count, base_[k], in_order);
+      else
+        numbers(use, cell.size(), base_[k], kept);
+    }
+  }
   finish(point);
+}
+
+/// Leaves those in wanted blocks, and in `kept_` which they were.
+void HemisphereAim::keep_wanted(std::span<const uint8_t> wanted) {
+  kept_.resize(cell.size());
+  size_t count = 0;
+  for (size_t i = 0; i < cell.size(); ++i) {
+    kept_[count] = static_cast<uint32_t>(i);
+    cell[count] = cell[i];
+    radius_[count] = radius_[i];
+    turn_[count] = turn_[i];
+    count += wanted[block_of_[static_cast<size_t>(cell[i])]];
+  }
+  cell.resize(count);
 }
 
 /// Random places in cells.

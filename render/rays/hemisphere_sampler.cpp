@@ -38,6 +38,12 @@ HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState
     : tracer_(tracer), state_(state), query_(query), shooter_(tracer.shooter(state, query.rays)),
       pattern_(make_pattern(query.samples, query.min_samples)), interpolated_(interpolated),
       aim_(pattern_, query.cosine) {
+  for (int b = 0, across = pattern_.sectors / pattern_.sector_block; b < pattern_.blocks(); ++b)
+    for (int ring = 0; ring < pattern_.ring_block; ++ring)
+      for (int sector = 0; sector < pattern_.sector_block; ++sector)
+        by_block_.push_back(
+            static_cast<uint32_t>((b / across * pattern_.ring_block + ring) * pattern_.sectors +
+                                  b % across * pattern_.sector_block + sector));
   wants_light_ = query.radiance[0] && query.rays.shades;
   wants_map_ = !query.environment_map.empty() && (query.radiance[0] || query.environment_colour[0]);
   if (wants_map_ && !query.environment_space.empty())
@@ -170,20 +176,15 @@ float HemisphereSampler::blocked_by(const HemispherePoint& p, float distance) co
              : 1.0f;
 }
 
-/// f(cells of a block, how many of them were shot: one or all) for all blocks.
-template <class F> void HemisphereSampler::for_blocks(Cell* cells, F&& f) const {
-  const int across = pattern_.sectors / pattern_.sector_block,
-            size = pattern_.ring_block * pattern_.sector_block;
-  std::vector<Cell*> block(static_cast<size_t>(size));
-  for (int b = 0; b < pattern_.blocks(); ++b) {
+/// f(cells of a block, by number; how many of them were shot: one or all) for all blocks.
+template <class F> void HemisphereSampler::for_blocks(const Cell* cells, F&& f) const {
+  const size_t size = by_block_.size() / static_cast<size_t>(pattern_.blocks());
+  for (size_t first = 0; first < by_block_.size(); first += size) {
+    const auto block = std::span(by_block_).subspan(first, size);
     int shot = 0;
-    for (int k = 0; k < size; ++k) {
-      Cell& cell = cells[(b / across * pattern_.ring_block + k / pattern_.sector_block) * pattern_.sectors +
-                         b % across * pattern_.sector_block + k % pattern_.sector_block];
-      block[static_cast<size_t>(k)] = &cell;
-      shot += cell.shot;
-    }
-    f(std::span<Cell* const>(block), shot);
+    for (uint32_t cell : block)
+      shot += cells[cell].shot;
+    f(block, shot);
   }
 }
 
@@ -201,20 +202,23 @@ void HemisphereSampler::finish(const HemispherePoint& p, Cell* cells, Hemisphere
     float distance = std::min(cell.distance, p.max_distance);
     if (distance < kInfinity) nearness += weight / std::max(distance, 1e-20f);
   };
-  for_blocks(cells, [&](std::span<Cell* const> block, int shot) {
+  for_blocks(cells, [&](std::span<const uint32_t> block, int shot) {
     // Cells that were left out are like the one of their block that was not.
-    for (const Cell* cell : block)
-      if (cell->shot) add(*cell, static_cast<float>(block.size()) / static_cast<float>(shot));
+    const float weight = static_cast<float>(block.size()) / static_cast<float>(shot);
+    for (uint32_t cell : block)
+      if (cells[cell].shot) add(cells[cell], weight);
   });
   const double count = pattern_.cells();
   for (size_t i = 0; i < HemisphereSample::kValues; ++i)
     out.value[i] = static_cast<float>(sum[i] / count);
   out.distance = nearness > 0 ? static_cast<float>(count / nearness) : kInfinity;
   if (!interpolated_ || !query_.cosine || p.cone > kPi / 2 + 1e-4f) return;
-  for_blocks(cells, [](std::span<Cell* const> block, int) {
-    const Cell seen = **std::find_if(block.begin(), block.end(), [](const Cell* c) { return c->shot; });
-    for (Cell* cell : block)
-      if (!cell->shot) *cell = seen;
+  for_blocks(cells, [&](std::span<const uint32_t> block, int shot) {
+    if (shot == static_cast<int>(block.size())) return;
+    const Cell seen =
+        cells[*std::find_if(block.begin(), block.end(), [&](uint32_t c) { return cells[c].shot; })];
+    for (uint32_t cell : block)
+      if (!cells[cell].shot) cells[cell] = seen;
   });
   gradients(p, cells, out);
 }

@@ -41,7 +41,7 @@ private:
   void cast_blocked(std::span<const HemispherePoint> points, Rays& rays);
   void look_up_map(Rays& rays);
   void finish(const HemispherePoint& point, Cell* cells, HemisphereSample& out) const;
-  template <class F> void for_blocks(Cell* cells, F&& f) const;
+  template <class F> void for_blocks(const Cell* cells, F&& f) const;
   void gradients(const HemispherePoint& point, const Cell* cells, HemisphereSample& out) const;
   bool differs(const Cell& a, const Cell& b) const;
   float blocked_by(const HemispherePoint& point, float distance) const;
@@ -60,8 +60,9 @@ private:
   /// Whether rays bring anything that is filtered.
   bool needs_width() const { return wants_light_ || wants_map_; }
 
-  std::vector<Cell> cells_; ///< of all points being sampled
-  std::vector<int> chosen_; ///< of each block of each point: the cell that is shot first
+  std::vector<Cell> cells_;        ///< of all points being sampled
+  std::vector<int> chosen_;        ///< of each block of each point: the cell that is shot first
+  std::vector<uint32_t> by_block_; ///< cells in the order of their blocks
   HemisphereAim aim_;
   std::unique_ptr<Rays> rays_; ///< with its memory
   std::string problem_;

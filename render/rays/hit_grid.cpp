@@ -46,7 +46,8 @@ SurfaceSpot in_camera(const Matrix4& to_camera, const SurfaceLattice& lattice, s
 /// faces are off the surface, but not beside.
 class NearnessTest {
 public:
-  explicit NearnessTest(const PrimitiveState& state) : m_(state.camera_to_object) {
+  explicit NearnessTest(const PrimitiveState& state)
+      : m_(state.camera_to_object), affine_(is_affine(m_)), origin_(m_(3, 0), m_(3, 1), m_(3, 2)) {
     // The greatest factor by which lengths grow towards camera space is no more than this (Gershgorin, of the
     // squares); of rigid and even scalings it is it.
     const Matrix4& to_camera = state.object_to_camera;
@@ -62,7 +63,8 @@ public:
     }
   }
   bool passes(const SurfaceLattice& lattice, size_t k, Vec3 target, float distance) const {
-    const Vec3 off = transform_point(m_, target) - lattice.P[k], N = lattice.N[k];
+    const Vec3 there = affine_ ? transform_vector(m_, target) + origin_ : transform_point(m_, target);
+    const Vec3 off = there - lattice.P[k], N = lattice.N[k];
     const float along = glm::dot(off, N), length = glm::dot(N, N), most = kNearEnough * distance;
     // |off|^2 without what lies along N.
     return (glm::dot(off, off) * length - along * along) * squared_growth_ <= most * most * length;
@@ -70,6 +72,8 @@ public:
 
 private:
   const Matrix4& m_;
+  bool affine_;
+  Vec3 origin_;
   float squared_growth_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 
 namespace render {
@@ -141,6 +142,8 @@ struct HitShader::Worker {
   HitGrid hits;
   HitVolumes volumes;
   slvm::Grid lattice{2, 2};
+  std::vector<uint32_t> order, bucket_of; ///< of the hits of a batch
+  std::vector<HitRay> one_grid;           ///< those that are shaded now
 };
 
 class HitShader::WorkerLease {
@@ -322,12 +325,13 @@ uint32_t HitShader::group_of(uint32_t primitive) {
 
 /// By group, then primitive, then ray; groups and primitives in the order of their first hits here, whatever
 /// their numbers.
-void HitShader::sort(std::vector<HitRay>& hits) {
+void HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
   struct Bucket { // hits of one primitive
     uint32_t group, first = 0, count = 0;
   };
   std::vector<Bucket> buckets;
-  std::vector<uint32_t> bucket_of(hits.size());
+  std::vector<uint32_t>& bucket_of = worker.bucket_of;
+  bucket_of.resize(hits.size());
   {
     std::unordered_map<uint32_t, uint32_t> of_primitive;
     uint32_t last = 0, bucket = 0;
@@ -344,7 +348,12 @@ void HitShader::sort(std::vector<HitRay>& hits) {
       ++buckets[bucket].count;
     }
   }
-  if (buckets.size() == 1) return;
+  std::vector<uint32_t>& order = worker.order;
+  order.resize(hits.size());
+  if (buckets.size() == 1) {
+    std::iota(order.begin(), order.end(), 0u);
+    return;
+  }
   std::vector<std::vector<uint32_t>> of_group;
   std::unordered_map<uint32_t, size_t> number_of_group;
   for (uint32_t k = 0; k < buckets.size(); ++k) {
@@ -358,28 +367,44 @@ void HitShader::sort(std::vector<HitRay>& hits) {
       buckets[k].first = place;
       place += buckets[k].count;
     }
-  std::vector<HitRay> sorted(hits.size());
-  for (size_t i = 0; i < hits.size(); ++i)
-    sorted[buckets[bucket_of[i]].first++] = hits[i];
-  hits = std::move(sorted);
+  for (uint32_t i = 0; i < hits.size(); ++i)
+    order[buckets[bucket_of[i]].first++] = i;
 }
 
-void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
+std::vector<HitRay> HitShader::take_list() {
+  std::lock_guard lock(workers_mutex_);
+  std::vector<HitRay> list;
+  if (!lists_.empty()) {
+    list = std::move(lists_.back());
+    lists_.pop_back();
+  }
+  return list;
+}
+
+void HitShader::give_back(std::vector<HitRay> list) {
+  list.clear();
+  std::lock_guard lock(workers_mutex_);
+  lists_.push_back(std::move(list));
+}
+
+void HitShader::shade(std::span<const HitRay> hits, const HitBatch& batch,
                       std::span<const slvm::RayOutput> outputs) {
   if (hits.empty() || outputs.empty()) return;
-  sort(hits);
   Demand demand(outputs, batch.shades);
   WorkerLease lease(*this, false);
+  Worker& worker = *lease;
+  sort(hits, worker);
   Work work;
   uint32_t last = 0;
   size_t group_end = 0, most = 0;
-  auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
+  auto at = [&](size_t i) -> const HitRay& { return hits[worker.order[i]]; };
+  auto group = [&](size_t i) { return group_[at(i).place.primitive]; };
+  auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
     if (group(first) != last) {
       last = group(first);
-      work = prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand);
+      work = prepare(scene_.primitives[at(first).place.primitive], batch, outputs, demand);
     }
-    auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
     if (first == group_end) {
       while (group_end < hits.size() && group(group_end) == last)
         ++group_end;
@@ -388,11 +413,15 @@ void HitShader::shade(std::vector<HitRay>& hits, const HitBatch& batch,
                    grids = std::max<size_t>((count + kHitsAGrid / 2) / kHitsAGrid, 1);
       most = (count + grids - 1) / grids;
     }
+    std::vector<HitRay>& one_grid = worker.one_grid;
+    one_grid.assign(1, at(first));
     for (end = first + 1; end < group_end && end - first < most; ++end) {
-      if (work.apart && batch.rays.origin(hits[end]) != batch.rays.origin(hits[first])) break;
-      if (demand.attributes && state(hits[end]) != state(hits[first])) break;
+      const HitRay& hit = at(end);
+      if (work.apart && batch.rays.origin(hit) != batch.rays.origin(one_grid[0])) break;
+      if (demand.attributes && state(hit) != state(one_grid[0])) break;
+      one_grid.push_back(hit);
     }
-    shade_grid(*lease, std::span(hits).subspan(first, end - first), batch, outputs, demand, work,
+    shade_grid(worker, one_grid, batch, outputs, demand, work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }
 }
@@ -408,8 +437,24 @@ std::bitset<slvm::kGlobalCount> HitShader::read_of_grids(const Work& work, const
   return out;
 }
 
+/// The surface shader as far as the outputs ask for it: shadow rays need no lights for an opacity.
+const slvm::Instance* HitShader::narrowed(const slvm::Instance* surface,
+                                          std::span<const slvm::RayOutput> outputs) {
+  std::vector<std::string> names;
+  for (const slvm::RayOutput& out : outputs)
+    if (out.from == From::kSurface) names.emplace_back(out.name);
+  std::sort(names.begin(), names.end());
+  std::pair<uint64_t, std::string> key(surface->id(), {});
+  for (const std::string& name : names)
+    key.second += name + ' ';
+  std::lock_guard lock(narrow_mutex_);
+  auto [it, is_new] = narrow_.try_emplace(std::move(key));
+  if (is_new) it->second = machine_.narrowed(*surface, names);
+  return it->second ? it->second.get() : surface;
+}
+
 HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
-                                   std::span<const slvm::RayOutput> outputs, const Demand& demand) const {
+                                   std::span<const slvm::RayOutput> outputs, const Demand& demand) {
   Work w;
   w.primitive = &primitive;
   const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
@@ -418,8 +463,11 @@ HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& b
   if (!demand.displacement || w.plain) w.set.displacement = nullptr;
   if (!demand.surface || w.plain) w.set.surface = nullptr;
   if (demand.volumes && !w.plain) w.volumes = possible_volumes(batch.from.shaders, w.set);
-  const bool lights = w.set.surface && std::any_of(bound.lights.begin(), bound.lights.end(),
-                                                   [](auto* light) { return differentiates(*light); });
+  if (w.set.surface && !demand.volumes) w.set.surface = narrowed(w.set.surface, outputs);
+  const bool all_of_it = w.set.surface == bound.shaders.surface; // else no light runs
+  const bool lights = all_of_it && w.set.surface &&
+                      std::any_of(bound.lights.begin(), bound.lights.end(),
+                                  [](auto* light) { return differentiates(*light); });
   w.beside = w.any_shader(differentiates) || lights;
   w.done_beside = !lights && std::none_of(w.volumes.begin(), w.volumes.end(),
                                           [](auto* volume) { return differentiates(*volume); });

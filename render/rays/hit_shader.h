@@ -7,8 +7,10 @@
 #include "render/shading/bound_shaders.h"
 #include "render/shading/services.h"
 
+#include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 namespace render {
@@ -32,8 +34,13 @@ public:
             const BoundShaders& shaders, slvm::RendererServices& services);
   ~HitShader() override;
 
-  /// Shades hits (and reorders them) and stores the outputs of each at its ray.
-  void shade(std::vector<HitRay>& hits, const HitBatch& batch, std::span<const slvm::RayOutput> outputs);
+  /// Shades hits and stores the outputs of each at its ray.
+  void shade(std::span<const HitRay> hits, const HitBatch& batch, std::span<const slvm::RayOutput> outputs);
+
+  /// An empty list for the hits of a batch, whose memory is used again: thousands of hits are given back to
+  /// the system by each batch otherwise.
+  std::vector<HitRay> take_list();
+  void give_back(std::vector<HitRay> list);
 
   bool displaces(const Primitive&) const override;
   void positions(const Primitive&, const UvRect&, int nu, int nv, std::vector<Vec3>& P) override;
@@ -50,12 +57,13 @@ private:
   struct Demand;
   struct Work;
   uint32_t group_of(uint32_t primitive);
-  void sort(std::vector<HitRay>& hits);
+  void sort(std::span<const HitRay> hits, Worker& worker);
   void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
                   std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
                   uint64_t id);
   Work prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
-               const Demand& demand) const;
+               const Demand& demand);
+  const slvm::Instance* narrowed(const slvm::Instance* surface, std::span<const slvm::RayOutput> outputs);
   static std::bitset<slvm::kGlobalCount> read_of_grids(const Work& work, const BoundAttributes& bound,
                                                        std::span<const slvm::RayOutput> outputs);
   bool is_primitive_mode(const Primitive&, const HitBatch& batch) const;
@@ -71,11 +79,16 @@ private:
   DiceContext dice_;
   std::mutex workers_mutex_;
   std::vector<std::unique_ptr<Worker>> idle_, idle_displacers_;
+  std::vector<std::vector<HitRay>> lists_;
   std::mutex groups_mutex_;
   std::vector<uint32_t>
       group_; ///< by primitive: number of the group that can be diced together; 0: not known yet
   struct Groups;
   std::unique_ptr<Groups> groups_;
+  /// Surfaces of which only some outputs are wanted, by instance and names; null: all of it is needed.
+  using Narrow = std::map<std::pair<uint64_t, std::string>, std::unique_ptr<const slvm::Instance>>;
+  std::mutex narrow_mutex_;
+  Narrow narrow_;
   std::atomic<size_t> grids_{0}, points_{0};
 };
 

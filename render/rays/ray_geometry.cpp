@@ -102,11 +102,13 @@ const Primitive& RayGeometry::primitive_of(const Item& item, uint32_t face) cons
 
 SurfacePlace RayGeometry::place(const RayHit& hit) const {
   const Item& item = *items_[hit.item];
-  const ItemPart& part = item.parts[item.part_index.find(item.parts, hit.face)];
+  const ItemPart& part =
+      item.parts.size() == 1 ? item.parts[0] : item.parts[item.part_index.find(item.parts, hit.face)];
   const uint32_t face = hit.face - part.first_face, row = face >> part.log_u,
                  column = face & ((1u << part.log_u) - 1);
   auto parameter = [](uint32_t whole, float rest, uint8_t log) {
-    return std::clamp((static_cast<float>(whole) + rest) / static_cast<float>(1u << log), 0.0f, 1.0f);
+    const float face_size = std::bit_cast<float>((127u - log) << 23); // 2^-log
+    return std::clamp((static_cast<float>(whole) + rest) * face_size, 0.0f, 1.0f);
   };
   return {part.primitive, parameter(column, hit.u, part.log_u), parameter(row, hit.v, part.log_v),
           part.displaced};

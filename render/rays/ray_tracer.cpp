@@ -79,7 +79,12 @@ RayTracer::Shooter RayTracer::shooter(const slvm::ShadingState& state,
     out.may_shoot = facts.diffuse_depth < next.most_diffuse_depth;
     ++next.diffuse_depth;
     break;
-  case slvm::RayKind::kTransmission: ++next.shadow_depth; break;
+  case slvm::RayKind::kTransmission:
+    // Lights that a surface's opacity asks for would look for shadows in turn, at each of those surfaces
+    // again.
+    out.may_shoot = facts.type != "transmission" || state.running.shader().kind() != slvm::ShaderKind::kLight;
+    ++next.shadow_depth;
+    break;
   }
   out.may_shoot = out.may_shoot && facts.depth < max_depth_;
   ++next.depth;
@@ -137,7 +142,7 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   const RayRule rule = g.rule(options.kind, options.subset, options.sides);
   const std::vector<Color> weight = weights(by, batch);
   const bool light = min_weight_ > 0 && !weight.empty();
-  std::vector<HitRay> hits;
+  std::vector<HitRay> hits = hits_.take_list();
   if (!outputs.empty()) hits.reserve(batch.count);
   {
     auto tracing = g.tracing();
@@ -161,6 +166,7 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   seed = hash_of(static_cast<int64_t>(seed), static_cast<int64_t>(by.number(batch, 0)), kHits);
   hits_.shade(hits, {by.state, {batch, weight}, options.kind, options.mode, options.shades, by.next, seed},
               outputs);
+  hits_.give_back(std::move(hits));
 }
 
 RayUsage RayTracer::usage() const {

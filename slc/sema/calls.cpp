@@ -17,6 +17,23 @@ bool has_channel(std::string_view function) {
          slvm::shadeop(rows[0]).signature.params[1].name == "channel";
 }
 
+/// The tokens of a set, those that end in any name with that of `token`: "surface:*" as "surface:Ci" for
+/// "surfce:Ci".
+std::vector<std::string> tokens_like(std::string_view set, std::string_view token) {
+  const size_t colon = token.rfind(':');
+  std::vector<std::string> names;
+  for (const slvm::TokenInfo& t : slvm::tokens()) {
+    if (t.set != set) continue;
+    std::string name(t.name);
+    if (name.ends_with('*')) {
+      if (colon == token.npos) continue;
+      name.replace(name.size() - 1, 1, token.substr(colon + 1));
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 } // namespace
 
 // Makes the channel of texture("name"[2], ...), texture(name[2], ...) or texture(name, ...) an argument.
@@ -244,11 +261,12 @@ void Checker::finish_token(ExprPtr token, ExprPtr value, std::string_view set, s
   if (constant) {
     pair.info = slvm::find_token(set, constant->value);
     if (!pair.info) {
-      std::vector<std::string_view> names;
-      for (const slvm::TokenInfo& t : slvm::tokens())
-        if (t.set == set) names.push_back(t.name);
+      const std::vector<std::string> known = tokens_like(set, constant->value);
+      const std::vector<std::string_view> names(known.begin(), known.end());
       std::string_view near = slvm::nearest_name(constant->value, names);
-      if (near.empty())
+      if (std::string_view advice = token_hint(set, constant->value); !advice.empty())
+        report(diags_, Msg::kUnknownTokenHint, token->range, callee, constant->value, advice);
+      else if (near.empty())
         report(diags_, Msg::kUnknownToken, token->range, callee, constant->value);
       else
         report(diags_, Msg::kUnknownTokenNear, token->range, callee, constant->value, near);

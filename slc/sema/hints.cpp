@@ -119,6 +119,14 @@ std::string_view variable_hint(std::string_view name) {
   return {};
 }
 
+std::string_view token_hint(std::string_view set, std::string_view token) {
+  if ((set == "gather" || set == "traverse") && token.starts_with("light:"))
+    return "rays hit surfaces, not lights; let the surface keep what its light loop finds in an output "
+           "parameter, "
+           "and ask for that by \"surface:NAME\"";
+  return {};
+}
+
 ExprPtr copy_constant(const Expr& e, SourceRange range) {
   if (const auto* text = as<StringExpr>(&e)) {
     auto copy = std::make_unique<StringExpr>(range);

@@ -123,16 +123,34 @@ int call_cost(const Candidate& c, const std::vector<Argument>& args) {
   return cost;
 }
 
+// What promoting floats costs to the type that an argument open to floats and to that type has with this
+// candidate.
+static int promotion(const Candidate& c, const std::vector<Argument>& args) {
+  int cost = 0;
+  const size_t positional = c.positional(args.size());
+  for (size_t i = 0; i < positional; ++i) {
+    const Type to = c.param(i).type;
+    if (!args[i].types.only(Type::kFloat) || !slvm::is_triple(to)) continue;
+    for (size_t k = 0; k < positional; ++k)
+      if (args[k].types.has(Type::kFloat) && args[k].types.has(to) && c.param(k).type == to) {
+        cost += argument_cost(c.param(i), args[i]);
+        break;
+      }
+  }
+  return cost;
+}
+
 std::vector<Viable> viable(const std::vector<Candidate>& candidates, const std::vector<Argument>& args) {
   std::vector<Viable> found;
   int best = kImpossible;
   for (const Candidate& c : candidates) {
-    int cost = call_cost(c, args);
-    if (cost >= kImpossible || cost > best) continue;
-    if (cost < best) found.clear();
-    best = cost;
-    found.push_back({c, cost});
+    Viable v{c, call_cost(c, args), 0};
+    if (v.cost >= kImpossible) continue;
+    v.promotion = promotion(c, args);
+    best = std::min(best, v.cost - v.promotion);
+    found.push_back(std::move(v));
   }
+  std::erase_if(found, [&](const Viable& v) { return v.cost - v.promotion > best; });
   return found;
 }
 
@@ -145,7 +163,7 @@ size_t choose(const std::vector<Viable>& candidates, const std::vector<Argument>
       Param p = v.candidate.param(i);
       unusual += !p.any && args[i].preferred != Type::kVoid && args[i].preferred != p.type;
     }
-    return std::tuple(against_context, unusual);
+    return std::tuple(against_context, v.promotion, unusual);
   };
   size_t best = 0;
   for (size_t i = 1; i < candidates.size(); ++i)

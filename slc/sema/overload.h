@@ -50,13 +50,15 @@ struct Argument {
 struct Viable {
   Candidate candidate;
   int cost = 0;
+  int promotion = 0; ///< the part of it that a type wanted outside makes up for
 };
 
 /// Of the conversion of one argument; kImpossible when there is none.
 int argument_cost(const Param&, const Argument&);
 /// Sum of the conversions the candidate needs; kImpossible or more when it cannot be called so.
 int call_cost(const Candidate&, const std::vector<Argument>& args);
-/// The candidates of least cost, in order; empty when none can be called.
+/// The candidates of least cost, in order; empty when none can be called. Floats beside an argument that
+/// could be of several types are promoted for nothing: in `Ci = noise(P) + .5` the sum may be one of colors.
 std::vector<Viable> viable(const std::vector<Candidate>&, const std::vector<Argument>& args);
 /// The index of the best of them where a `wanted` (kVoid: any) is needed; at equal rank the first. `tied`:
 /// indices of others that are exactly as good.

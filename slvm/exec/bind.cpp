@@ -11,6 +11,7 @@
 #include <cassert>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 
 namespace slvm {
 namespace {
@@ -97,14 +98,12 @@ bool belongs_to(const ir::Module& m, const Program& program) {
          std::equal(m.params.begin(), m.params.end(), program.params.begin(), program.params.end(), same);
 }
 
-} // namespace
-
-std::unique_ptr<const Program> specialise(const Program& program, const BoundValues& values,
-                                          std::span<const std::string> may_vary,
-                                          const ir::ConstantEvaluator& evaluator) {
-  if (program.ir.empty()) return nullptr;
+/// The module of a program with these values in place of what reads the parameters. Empty: none is carried.
+std::optional<ir::Module> module_of(const Program& program, const BoundValues& values,
+                                    std::span<const std::string> may_vary) {
+  if (program.ir.empty()) return std::nullopt;
   Result<ir::Module> module = ir::deserialise(program.ir);
-  if (!module || !belongs_to(*module, program)) return nullptr;
+  if (!module || !belongs_to(*module, program)) return std::nullopt;
   std::map<uint32_t, uint32_t> constant_of; // slot to index of its constant
   for (size_t i = 0; i < values.size() && i < module->params.size(); ++i) {
     const Param& p = module->params[i];
@@ -125,13 +124,66 @@ std::unique_ptr<const Program> specialise(const Program& program, const BoundVal
       }
     });
   });
-  ir::optimise(*module, 2, &evaluator);
-  if (ir::fuse_products(*module)) ir::infer_detail(*module);
+  return std::move(*module);
+}
+
+std::unique_ptr<const Program> compiled(const Program& program, ir::Module& module,
+                                        const ir::ConstantEvaluator& evaluator) {
+  ir::optimise(module, 2, &evaluator);
+  if (ir::fuse_products(module)) ir::infer_detail(module);
   auto out = std::make_unique<Program>(program);
   out->ir.clear();
-  ir::emit(*module, *out);
+  ir::emit(module, *out);
   if (!verify_program(*out).empty()) return nullptr; // sound IR can still ask for what no code may do
   return out;
+}
+
+/// Takes out stores to `slots`. False: there are none.
+bool drop_stores(ir::Module& m, ir::Region& region, const std::vector<bool>& slots) {
+  bool dropped = std::erase_if(region.body, [&](ir::InstId id) {
+                   return m.insts[id].op == ir::Op::kStore && slots[m.insts[id].index];
+                 }) > 0;
+  for (ir::InstId id : region.body)
+    for (ir::Region& nested : m.insts[id].regions)
+      dropped |= drop_stores(m, nested, slots);
+  return dropped;
+}
+
+/// Whether others than the shader itself may read its variables while it runs.
+bool is_looked_at(const ir::Module& m) {
+  bool looked_at = false;
+  ir::for_each_inst(m, m.body, [&](ir::InstId id) {
+    const ir::Inst& inst = m.insts[id];
+    looked_at |= inst.op == ir::Op::kIlluminance ||
+                 (inst.op == ir::Op::kCall && m.plugins.find(static_cast<ShadeopId>(inst.index)));
+  });
+  return looked_at;
+}
+
+} // namespace
+
+std::unique_ptr<const Program> specialise(const Program& program, const BoundValues& values,
+                                          std::span<const std::string> may_vary,
+                                          const ir::ConstantEvaluator& evaluator) {
+  auto module = module_of(program, values, may_vary);
+  return module ? compiled(program, *module, evaluator) : nullptr;
+}
+
+std::unique_ptr<const Program> narrow(const Program& program, const BoundValues& values,
+                                      std::span<const std::string> may_vary,
+                                      std::span<const std::string> outputs,
+                                      const ir::ConstantEvaluator& evaluator) {
+  auto module = program.kind == ShaderKind::kSurface ? module_of(program, values, may_vary) : std::nullopt;
+  if (!module) return nullptr;
+  std::vector<bool> unwanted(module->slots.size());
+  for (size_t i = 0; i < unwanted.size(); ++i) {
+    const Slot& slot = module->slots[i];
+    unwanted[i] = (slot.parameter || slot.name == "Ci" || slot.name == "Oi") &&
+                  std::find(outputs.begin(), outputs.end(), slot.name) == outputs.end();
+  }
+  if (!drop_stores(*module, module->body, unwanted)) return nullptr;
+  auto out = compiled(program, *module, evaluator);
+  return out && !is_looked_at(*module) ? std::move(out) : nullptr;
 }
 
 } // namespace slvm

@@ -17,4 +17,12 @@ std::unique_ptr<const Program> specialise(const Program& program, const BoundVal
                                           std::span<const std::string> may_vary,
                                           const ir::ConstantEvaluator& evaluator);
 
+/// A surface shader's program, with these values folded in, of which only `outputs` are wanted: Ci, Oi and
+/// output parameters that are not among them are not computed. Null: no IR, nothing falls away, or others may
+/// look at all of them while it runs (lights by surface(), functions of plug-ins).
+std::unique_ptr<const Program> narrow(const Program& program, const BoundValues& values,
+                                      std::span<const std::string> may_vary,
+                                      std::span<const std::string> outputs,
+                                      const ir::ConstantEvaluator& evaluator);
+
 } // namespace slvm

@@ -53,7 +53,9 @@ struct Instance::Bound {
   /// Words of code in strip blocks that are operands: those that are in the same place for every strip of a
   /// grid, and those that move from strip to strip. Both in order.
   std::vector<uint32_t> fixed_operands, moving_operands;
-  std::vector<ParamValue> given; ///< of lights: what the instance was made with
+  /// What the instance was made with, of shaders that may be made again otherwise: lights and surfaces.
+  std::vector<ParamValue> given;
+  std::vector<std::string> may_vary;
   uint32_t last_derivative = 0;  ///< the shader's code from this word on reads no neighbouring points
   bool emits = false;            ///< a light with illuminate or solar: not an ambient light
   bool emits_once = false;       ///< one such block, outside loops: its L, Cl and Ol stay where they are

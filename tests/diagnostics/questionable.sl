@@ -14,6 +14,8 @@ surface s(float k = 1; float unused = 2; string pattern = "%f") // expect-warnin
   vector v = P; // expect-warning: a point is used as a vector
   f += float texture("a.tex", "blurr", 0.1); // expect-warning: did you mean "blur"?
   f += float texture("a.tex", "nonsense", 0.1); // expect-warning: no optional argument "nonsense"
+  gather("", P, N, 0, 1, "light:Cl", Ci) { f += 1; } // expect-warning: rays hit surfaces, not lights; let the surface keep what its light loop finds in an output parameter, and ask for that by "surface:NAME". It is ignored
+  traverse("", P, N, "surfce:Ci", Ci) { f += 1; } // expect-warning: no optional argument "surfce:Ci"; did you mean "surface:Ci"?
   Ci = color "hsb" (f, 0, 0); // expect-warning: no color space "hsb"
   point p = transform("wold", both); // expect-warning: did you mean "world"?
   point q = transform("object", P);

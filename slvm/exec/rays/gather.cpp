@@ -88,11 +88,10 @@ void GatherLoop::read_values(const GridCall& call, const CallTokens& tokens) {
                                                              {"environment:direction", Of::kMapDirection},
                                                              {"environment:solidangle", Of::kMapSolidAngle}};
   static constexpr std::pair<std::string_view, From> kAtHits[] = {
-      {"surface:", From::kSurface},    {"displacement:", From::kDisplacement},
-      {"volume:", From::kVolume},      {"atmosphere:", From::kAtmosphere},
-      {"interior:", From::kInterior},  {"exterior:", From::kExterior},
-      {"light:", From::kLight},        {"primitive:", From::kPrimitive},
-      {"attribute:", From::kAttribute}};
+      {"surface:", From::kSurface},     {"displacement:", From::kDisplacement},
+      {"volume:", From::kVolume},       {"atmosphere:", From::kAtmosphere},
+      {"interior:", From::kInterior},   {"exterior:", From::kExterior},
+      {"primitive:", From::kPrimitive}, {"attribute:", From::kAttribute}};
   values_.clear();
   tokens.for_each([&](std::string_view name, const GridOperand& o) {
     RayValue v;

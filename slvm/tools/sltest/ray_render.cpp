@@ -1,5 +1,6 @@
 // Ray scenes by the renderer: the module sltest_rays.so.
 #include "render/rays/ray_tracer.h"
+#include "render/rib/parser.h"
 #include "render/shading/services.h"
 #include "render/state/interpreter.h"
 #include "render/state/search_path.h"
@@ -14,22 +15,70 @@ namespace {
 /// away again.
 constexpr const char* kLast = "\nSphere 1 -1 1 360\nWorldEnd\n";
 
+/// Opens the world behind the options that a scene begins with, if it does not do so itself.
+class WorldOpener final : public render::RiTarget {
+public:
+  WorldOpener(render::Interpreter& interpreter, std::string folder)
+      : interpreter_(interpreter), folder_(std::move(folder)) {}
+
+  void request(const render::RequestCall& call) override {
+    using render::RequestId;
+    const bool of_options = call.id == RequestId::kOption || call.id == RequestId::kDeclare ||
+                            (call.info().outside && !call.info().world);
+    if (!open_ && !of_options) open(call.where);
+    open_ |= call.id == RequestId::kWorldBegin;
+    interpreter_.request(call);
+    if (call.id == RequestId::kOption) place_folders();
+  }
+  void unknown_request(std::string_view name, std::string_view suggestion, SourceRange where) override {
+    interpreter_.unknown_request(name, suggestion, where);
+  }
+
+private:
+  void open(SourceRange where) {
+    render::RequestCall begin;
+    begin.id = render::RequestId::kWorldBegin;
+    begin.where = where;
+    interpreter_.request(begin);
+    open_ = true;
+  }
+
+  /// Relative folders of search paths are beside the test.
+  void place_folders() const {
+    for (auto& [kind, path] : interpreter_.options().search_paths)
+      for (std::string& folder : path)
+        if (!folder.starts_with('/') && !folder.starts_with(folder_)) folder = folder_ + folder;
+  }
+
+  render::Interpreter& interpreter_;
+  std::string folder_; ///< "", or with a slash at the end
+  bool open_ = false;
+};
+
+std::string folder_of(const std::vector<std::string>& path) {
+  return path.empty() || path[0].empty() || path[0] == "." ? "" : path[0] + "/";
+}
+
 class RenderedScene final : public RayScene {
 public:
   explicit RenderedScene(const RaySceneRequest& request)
       : cache_(*request.machine,
-               [shader = request.shader](const std::string& name, const std::vector<std::string>&) {
-                 return shader(name);
+               [shader = request.shader](const std::string& name, const std::vector<std::string>& path) {
+                 return shader(name, path);
                }) {
     SourceManager sources;
     Diagnostics diagnostics;
     render::Interpreter interpreter(sources, diagnostics,
                                     [&](render::Scene& scene) { scene_ = std::move(scene); });
-    interpreter.options().search_paths["texture"] = interpreter.options().search_paths["archive"] =
-        request.path;
-    // On the line where the text begins, so that messages count from there.
-    interpreter.read_text(request.name,
-                          "Projection \"perspective\" \"fov\" 60 WorldBegin " + request.rib + kLast);
+    for (const char* kind : {"texture", "archive", "shader"})
+      interpreter.options().search_paths[kind] = request.path;
+    WorldOpener opener(interpreter, folder_of(request.path));
+    auto read = [&](const std::string& text) {
+      const FileId file = sources.add(request.name, text);
+      render::parse_rib(sources.text(file), file, opener, diagnostics);
+    };
+    read("Projection \"perspective\" \"fov\" 60");
+    read(request.rib + kLast);
     interpreter.finish();
     render::RayAttributes own;
     if (!scene_.primitives.empty()) {
@@ -37,11 +86,11 @@ public:
       scene_.primitives.pop_back();
     }
     render::TextureMaps::Settings settings;
-    settings.folders = request.path;
+    settings.folders = scene_.options.search_paths["texture"];
     textures_ = std::make_unique<render::TextureMaps>(settings);
     bound_ = std::make_unique<render::BoundShaders>(scene_, *request.machine, cache_, diagnostics);
     lookups_ =
-        std::make_unique<subsurface::CloudLookups>(clouds_, [path = request.path](std::string_view name) {
+        std::make_unique<subsurface::CloudLookups>(clouds_, [path = settings.folders](std::string_view name) {
           return render::find_file(name, path).value_or(std::string(name));
         });
     services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, *lookups_,
@@ -53,6 +102,9 @@ public:
   }
 
   RayServices& rays() override { return *tracer_; }
+  bool option(const ShadingState& state, std::string_view name, Value& out) override {
+    return services_->option(state, name, out);
+  }
   const std::string& problem() const override { return problem_; }
 
 private:

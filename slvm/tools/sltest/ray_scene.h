@@ -3,27 +3,34 @@
 #pragma once
 
 #include "slvm/machine.h"
+#include "slvm/renderer_services.h"
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace slvm::sltest {
 
 struct RaySceneRequest {
   const Machine* machine = nullptr; ///< whose shaders ask; outlives the scene
-  std::string rib;                  ///< what stands between WorldBegin and WorldEnd; "world" is "current"
-  std::string name;                 ///< of the text, for messages
-  std::vector<std::string> path;    ///< folders of textures and archives
-  /// The bytes of a compiled shader by name.
-  std::function<Result<std::string>(const std::string& name)> shader;
+  /// What stands between WorldBegin and WorldEnd, with options in front; "world" is "current".
+  std::string rib;
+  std::string name; ///< of the text, for messages
+  /// Folders of textures, archives and shaders where Option "searchpath" does not say otherwise. Relative
+  /// ones it names are in the first of them.
+  std::vector<std::string> path;
+  /// The bytes of a compiled shader by name, in these folders.
+  std::function<Result<std::string>(const std::string& name, const std::vector<std::string>& path)> shader;
 };
 
 class RayScene {
 public:
   virtual ~RayScene() = default;
   virtual RayServices& rays() = 0;
+  /// What the scene's options say, defaults included; see RendererServices::option.
+  virtual bool option(const ShadingState& state, std::string_view name, Value& out) = 0;
   /// What is wrong with the RIB, or "".
   virtual const std::string& problem() const = 0;
 };

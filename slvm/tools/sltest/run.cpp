@@ -131,9 +131,9 @@ bool Binding::set_scene(const Setup& setup, ShaderLibrary& library, const RunCon
   request.rib = setup.scene;
   request.name = setup.scene_where.file;
   request.path = setup.path;
-  request.shader = [&](const std::string& name) -> Result<std::string> {
+  request.shader = [&](const std::string& name, const std::vector<std::string>& path) -> Result<std::string> {
     ShaderError why;
-    ShaderPtr shader = library.find(name, {config.opt_level, nullptr}, setup.path, why);
+    ShaderPtr shader = library.find(name, {config.opt_level, nullptr}, path, why);
     if (!shader) return Error{why.text};
     return std::string(reinterpret_cast<const char*>(shader->slo.data()), shader->slo.size());
   };
@@ -157,8 +157,8 @@ std::vector<const Instance*> pointers(const std::vector<std::unique_ptr<Instance
 } // namespace
 
 Worker::Worker(const Binding& binding)
-    : binding_(binding), services_(binding.prepared_->scene, pointers(binding.lights_),
-                                   binding.ray_scene_ ? &binding.ray_scene_->rays() : nullptr),
+    : binding_(binding),
+      services_(binding.prepared_->scene, pointers(binding.lights_), binding.ray_scene_.get()),
       context_(binding.machine_, services_), grid_(binding.prepared_->grid.nu, binding.prepared_->grid.nv) {}
 
 double Worker::shade() {

@@ -86,7 +86,7 @@ bool MemoryServices::option(const ShadingState& state, std::string_view name, Va
   } else if (name == "Clipping") {
     out = {Type::kFloat, 2, {0, 1}, {}};
   } else {
-    return false;
+    return ray_scene_ && ray_scene_->option(state, name, out);
   }
   return true;
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "slvm/machine.h"
+#include "slvm/tools/sltest/ray_scene.h"
 #include "stdlib/scattering/cloud_lookups.h"
 
 #include <map>
@@ -50,9 +51,9 @@ struct Scene {
 
 class MemoryServices final : public RendererServices {
 public:
-  /// `rays` may be null.
-  MemoryServices(const Scene& scene, std::vector<const Instance*> lights, RayServices* rays = nullptr)
-      : scene_(scene), lights_(std::move(lights)), rays_(rays) {}
+  /// `ray_scene`, what rays see, may be null. Its options are told where the test gives none.
+  MemoryServices(const Scene& scene, std::vector<const Instance*> lights, RayScene* ray_scene = nullptr)
+      : scene_(scene), lights_(std::move(lights)), ray_scene_(ray_scene) {}
 
   bool space_to_current(const ShadingState&, std::string_view space, Matrix4& m) override;
   bool current_to_space(const ShadingState&, std::string_view space, Matrix4& m) override;
@@ -62,7 +63,7 @@ public:
   bool renderer_info(const ShadingState&, std::string_view name, Value& out) override;
   void print(const ShadingState&, std::string_view text) override { printed_ += text; }
   TextureServices* textures() override;
-  RayServices* rays() override { return rays_; }
+  RayServices* rays() override { return ray_scene_ ? &ray_scene_->rays() : nullptr; }
   SubsurfaceServices* subsurface() override { return scene_.clouds ? &scene_.clouds->lookups : nullptr; }
 
   const std::string& printed() const { return printed_; }
@@ -71,7 +72,7 @@ public:
 private:
   const Scene& scene_;
   std::vector<const Instance*> lights_;
-  RayServices* rays_;
+  RayScene* ray_scene_;
   std::string printed_;
 };
 

@@ -1,6 +1,7 @@
 // occlusion() beside gather() of equal error: a still life lit by nothing but the share of the sky that each
 // point sees, as both say it, and how far each picture is from one with very many rays. All pictures are made
-// in one process, on one thread, by user time. Usage: occlusion_bench [width [rays of the reference]]
+// in one process, on one thread, by user time. Usage: occlusion_bench [test | width [rays of the reference]];
+// "test" only looks at a small picture whether both agree.
 //
 // The time of a gather of equal error is that between the two measured ones whose errors hold it, on the
 // straight line between them in logarithms.
@@ -115,9 +116,25 @@ double rms(const Picture& a, const Picture& b) {
   return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
+constexpr const char* kInterpolated = "Attribute \"irradiance\" \"float maxerror\" .5 Surface \"occluded\" ";
+
+/// Both ways come to the same picture, and interpolation is worth it.
+bool agree() {
+  Bench bench(64);
+  const Picture exact = bench.render("Surface \"gathered\" \"samples\" 512"),
+                gathered = bench.render("Surface \"gathered\" \"samples\" 64"),
+                occluded = bench.render(std::string(kInterpolated) + "\"samples\" 256"),
+                adaptive = bench.render(std::string(kInterpolated) + "\"samples\" 256 \"fewest\" 64");
+  fmt::print("errors: gather {:.4f}, occlusion {:.4f}, adaptive {:.4f}; rays of the last two {}, {}\n",
+             rms(gathered, exact), rms(occluded, exact), rms(adaptive, exact), occluded.rays, adaptive.rays);
+  return rms(gathered, exact) < 0.02 && rms(occluded, exact) < 0.02 && rms(adaptive, exact) < 0.02 &&
+         2 * occluded.rays < exact.rays && 4 * adaptive.rays < 3 * occluded.rays;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "test") return agree() ? 0 : 1;
   const int width = argc > 1 ? std::atoi(argv[1]) : 200, most = argc > 2 ? std::atoi(argv[2]) : 4096;
   Bench bench(width);
   const Picture exact = bench.render(fmt::format("Surface \"gathered\" \"samples\" {}", most));
@@ -145,8 +162,7 @@ int main(int argc, char** argv) {
   };
   for (const char* how :
        {"\"samples\" 64", "\"samples\" 256", "\"samples\" 256 \"fewest\" 64", "\"samples\" 1024"}) {
-    const Picture p = bench.render(
-        fmt::format("Attribute \"irradiance\" \"float maxerror\" .5 Surface \"occluded\" {}", how));
+    const Picture p = bench.render(std::string(kInterpolated) + how);
     const Row same = equal(rms(p, exact));
     fmt::print(
         "occlusion {}: error {:.5f}, {:.2f} s, {:.2f} million rays at {} points; gather of equal error: "

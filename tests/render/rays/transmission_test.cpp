@@ -110,5 +110,24 @@ TEST(Transmission, too_many_layers_end) {
   expect_near(s.transmission({0, .1f, -1}, {0, .1f, 9}), Color(std::pow(.999f, 700.0f)), 1e-4f);
 }
 
+// Shadow rays that hit lit surfaces would shoot as many from each, and so on.
+TEST(Transmission, opacities_need_no_lights) {
+  const std::map<std::string, std::string> shaders = {
+      {"lit", "surface lit() { Oi = Os; Ci = Oi * diffuse(N); }"},
+      {"dim", "surface dim() { color c = diffuse(N); Oi = Os * step(-1, comp(c, 0)); Ci = Oi * c; }"},
+      {"lamp", "light lamp() { illuminate(point(0, 0, -9)) Cl = transmission(Ps, point(0, 0, -9), "
+               "\"samples\", 16, \"samplecone\", .1); }"}};
+  auto shot = [&](const std::string& shader) {
+    RayScene s(layers(3, "LightSource \"lamp\" 1 Surface \"" + shader +
+                             "\" Opacity .5 .5 .5 Attribute \"visibility\" \"transmission\" \"shader\""),
+               shaders);
+    expect_near(s.transmission({0, 0.1f, -1}, {0, 0.1f, 9}), Color(.125f));
+    EXPECT_EQ(s.messages(), "");
+    return s.tracer().usage().shadow_rays;
+  };
+  EXPECT_EQ(shot("lit"), 1u);
+  EXPECT_EQ(shot("dim"), 1u); // the lamp shines through everything there
+}
+
 } // namespace
 } // namespace render::testing

@@ -12,6 +12,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::FloatNear;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct MachineTest : ::testing::Test {
   Machine machine;
@@ -58,6 +59,45 @@ TEST_F(MachineTest, WhatTheBuildCannotServeIsNamedAtBinding) {
   ASSERT_FALSE(traced);
   EXPECT_EQ(traced.error(), "surface \"s\" calls 'caustic', which this build cannot serve");
   EXPECT_TRUE(machine.instantiate(*shader, {})); // the default needs no photons
+}
+
+// Of a surface only some outputs: what they do not need does not run.
+TEST_F(MachineTest, NarrowedSurfacesComputeWhatIsWanted) {
+  const std::string lit = "surface s(float k = 2; output varying float seen = 1) { seen = xcomp(P); printf(\"x\");"
+                          "Oi = k * Os; Ci = Oi * diffuse(N) + trace(P, N); }";
+  auto all = instantiate(machine, lit, {number("k", 0.25f)});
+  const std::vector<std::string> opacity{"Oi"};
+  auto narrow = machine.narrowed(*all, opacity);
+  ASSERT_TRUE(narrow);
+  EXPECT_THAT(narrow->program().imports, Not(::testing::IsEmpty())); // printf stays
+  for (ShadeopId id : narrow->program().imports)
+    EXPECT_NE(shadeop(id).name, "trace");
+  Grid grid = square(2, 2);
+  ShadingContext context(machine, services);
+  context.shade({.surface = narrow.get()}, grid);
+  EXPECT_EQ(grid.variable(Global::kOi).get(1, 3), 0.25f); // of the value the parameter was given
+  EXPECT_EQ(grid.variable(Global::kCi).get(1, 3), 1.0f);  // as it started
+  EXPECT_THAT(services.printed, HasSubstr("x"));
+  const Planes* seen = context.output(*narrow, "seen");
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->get(0, 2), 1.0f); // its default
+
+  const std::vector<std::string> both{"Oi", "seen"};
+  auto with_seen = machine.narrowed(*all, both);
+  ASSERT_TRUE(with_seen);
+  context.shade({.surface = with_seen.get()}, grid);
+  seen = context.output(*with_seen, "seen");
+  EXPECT_EQ(seen->get(0, 3), 1.0f);
+  EXPECT_EQ(seen->get(0, 2), 0.0f);
+}
+
+TEST_F(MachineTest, SurfacesThatOthersMayLookAtAreNotNarrowed) {
+  const std::vector<std::string> opacity{"Oi"}, colour{"Ci"};
+  auto lights =
+      instantiate(machine, "surface s(output varying float x = 1) { x = u; Oi = diffuse(N); Ci = x; }");
+  EXPECT_FALSE(machine.narrowed(*lights, opacity)); // a light may ask for x, by surface("x", ...)
+  auto plain = instantiate(machine, "surface s() { Ci = u; }");
+  EXPECT_FALSE(machine.narrowed(*plain, colour)); // there is nothing else
 }
 
 TEST_F(MachineTest, PointParametersAreInShaderSpace) {

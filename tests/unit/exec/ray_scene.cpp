@@ -44,7 +44,7 @@ AskedCall call_of(const RayOptions& o) {
 
 const char* name_of(RayOutput::From from) {
   constexpr const char* kNames[] = {"surface:",  "displacement:", "volume:",    "atmosphere:", "interior:",
-                                    "exterior:", "light:",        "primitive:", "attribute:",  "shaded:"};
+                                    "exterior:", "primitive:",    "attribute:", "shaded:"};
   return kNames[static_cast<size_t>(from)];
 }
 

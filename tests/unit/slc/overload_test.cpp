@@ -39,6 +39,50 @@ TEST(Overload, the_other_operand_is_context_too) {
   expect_row("P += noise(P);", "noise vector(point p)");
 }
 
+// A float beside a call that could be a color does not keep it from being one.
+TEST(Overload, floats_do_not_hide_the_context) {
+  const std::string noise = "noise color(point p)";
+  for (const char* value :
+       {"noise(P) + .1", "1 - noise(P)", "1 / noise(P)", ".5 * (noise(P) + .1)", "-(noise(P) - .5)",
+        "s > .5 ? noise(P) : 1", "max(noise(P), .1)", "clamp(2 * noise(P) - 1, 0, 1)", "noise(P) + t + .1"}) {
+    expect_row(std::string("Ci = ") + value + ";", noise);
+    expect_row(std::string("color c = 0; c += ") + value + ";", noise);
+    expect_row(std::string("float f; f = ") + value + ";", "noise float(point p)");
+    expect_row(std::string("Ci = float (") + value + ");", "noise float(point p)");
+  }
+  expect_row("Ci = trace(P, N) + .1;", "trace color(point P, vector R, @trace)");
+  expect_row("Ci = 1 - texture(name);",
+             "texture color(uniform string name, uniform float channel, @texture)");
+  expect_row("Ci *= 1 - shadow(name, P);",
+             "shadow color(uniform string name, uniform float channel, point P, @shadow)");
+  // Between floats alone there is nothing to choose.
+  expect_row("Ci = s + .1;", "operator+ float(float a, float b)");
+}
+
+TEST(Overload, what_stands_around_operators_chooses_for_their_operands) {
+  expect_row("Ci = mix(Cs, noise(P) + .1, .5);", "noise color(point p)");
+  expect_row("Ci = mix(Cs, Os, noise(P) + .1);", "noise float(point p)");
+  expect_row("Ci = Cs * (noise(P) + .1);", "noise color(point p)");
+  expect_row("Ci = color(noise(P) - .5) + 1;", "noise color(point p)");
+  expect_row("Ci = half(noise(P) + .1);", "noise color(point p)", "color half(color c) { return c / 2; }\n");
+  const std::string halves = "float half(float x) { return x / 2; } color half(color c) { return c / 2; }\n";
+  expect_row("Ci = half(noise(P) + .1);", "noise color(point p)", halves);
+  expect_row("float f; f = half(noise(P) + .1);", "noise float(point p)", halves);
+  expect_row("P += noise(P) - .5;", "noise vector(point p)");
+  expect_row("N = normalize(noise(P) - .5);", "noise normal(point p)");
+  expect_row("P = P + N * (noise(P) - .5);", "noise float(point p)");
+  expect_row("P = point \"world\" (noise(P) - .5);", "noise vector(point p)");
+  // Relations and conditions are about floats unless something else is compared.
+  expect_row("float f; f = noise(P) + .1 > 1 ? 1 : 0;", "noise float(point p)");
+  expect_row("float f; f = noise(P) + .1 == .6 ? 1 : 0;", "noise float(point p)");
+  expect_row("float f; f = noise(P) + .1 == Cs ? 1 : 0;", "noise color(point p)");
+  expect_row("float f; f = (noise(P) + .1) . Cs;", "noise color(point p)");
+  expect_row("float a[2]; a[noise(P) + .1] = 1;", "noise float(point p)");
+  Front front;
+  slc::CheckedSource source = front.check("color tint(point P) { return noise(P) + .1; }");
+  EXPECT_NE(slc::print_ast(source.unit).find("[noise color(point p)]"), std::string::npos);
+}
+
 TEST(Overload, bare_triples_take_the_type_of_their_context) {
   expect_row("vector v; v = v * (1, 1, 0);", "operator* vector(vector a, vector b)");
   expect_row("Ci = Cs + (1, 0, 0);", "operator+ color(color a, color b)");
