@@ -8,6 +8,7 @@
 #pragma once
 
 #include "slvm/machine.h"
+#include "stdlib/scattering/baked_clouds.h"
 #include "stdlib/scattering/cloud_lookups.h"
 
 #include <map>
@@ -32,10 +33,18 @@ private:
   std::unique_ptr<TextureServices> textures_;
 };
 
-/// Clouds of points for subsurface(), of one case.
+/// Files of points that can be read: a case runs several times, and would write as many points.
+class ReadClouds : public subsurface::BakedClouds {
+public:
+  using BakedClouds::BakedClouds;
+  std::string bake(const CloudPoints&) override { return "sltest writes no points; slrender does"; }
+};
+
+/// Clouds of points for subsurface() and plug-ins, of one case.
 struct Clouds {
   explicit Clouds(std::vector<std::string> path);
 
+  ReadClouds files;
   subsurface::CloudCache cache;
   subsurface::CloudLookups lookups;
 };
@@ -64,6 +73,7 @@ public:
   TextureServices* textures() override;
   RayServices* rays() override { return rays_; }
   SubsurfaceServices* subsurface() override { return scene_.clouds ? &scene_.clouds->lookups : nullptr; }
+  PointCloudServices* point_clouds() override { return scene_.clouds ? &scene_.clouds->files : nullptr; }
 
   const std::string& printed() const { return printed_; }
   void forget_printed() { printed_.clear(); }
