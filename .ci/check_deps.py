@@ -46,7 +46,7 @@ ALLOWED = {
     "render/ri": ["render", "public"],
     "render/tools": ["render", "slc", "public"],
     "stdlib": [],
-    "stdlib/subsurface": ["slvm/support"],
+    "stdlib/subsurface": ["slvm/support", "slvm/wide"],
     # What a program hangs into its services.
     "stdlib/scattering": ["public", "stdlib/subsurface"],
     "stdlib/dso": ["public", "stdlib/subsurface"], # and the headers for plug-ins
