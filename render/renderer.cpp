@@ -43,6 +43,7 @@ struct Renderer::Impl {
   void render(Scene& scene);
   void report_runtime_messages();
   void report_replaced(TextureMaps& textures);
+  void write_points(subsurface::BakedClouds& baked);
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
   void make_what_rays_see(Scene& scene);
@@ -149,8 +150,7 @@ void Renderer::Impl::render(Scene& frame) {
     if (std::string why = preview->finish(); !why.empty())
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
-  for (std::string& problem : baked.finish())
-    diagnostics.error({}, std::move(problem));
+  write_points(baked);
   report_replaced(textures);
   for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
     if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
@@ -235,6 +235,11 @@ void Renderer::Impl::report_runtime_messages() {
     else
       diagnostics.warning({}, "runtime", text);
   }
+}
+
+void Renderer::Impl::write_points(subsurface::BakedClouds& baked) {
+  for (std::string& problem : baked.finish())
+    diagnostics.error({}, std::move(problem));
 }
 
 void Renderer::Impl::report_replaced(TextureMaps& textures) {

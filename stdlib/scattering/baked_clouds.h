@@ -44,4 +44,14 @@ private:
   std::map<std::string, std::shared_ptr<Read>, std::less<>> read_;
 };
 
+/// Files that can only be read: for programs that run shaders several times, which would write as many
+/// points.
+class ReadClouds : public BakedClouds {
+public:
+  using BakedClouds::BakedClouds;
+  std::string bake(const slvm::CloudPoints&) override {
+    return "this program writes no points; slrender does";
+  }
+};
+
 } // namespace subsurface

@@ -5,7 +5,8 @@
 #include "render/state/search_path.h"
 #include "render/texture/texture_maps.h"
 #include "slvm/tools/sltest/ray_scene.h"
-#include "slvm/tools/sltest/services.h"
+#include "stdlib/scattering/baked_clouds.h"
+#include "stdlib/scattering/cloud_lookups.h"
 
 namespace slvm::sltest {
 namespace {
@@ -44,7 +45,7 @@ public:
       return render::find_file(name, path).value_or(std::string(name));
     };
     lookups_ = std::make_unique<subsurface::CloudLookups>(clouds_, find);
-    files_ = std::make_unique<ReadClouds>(find);
+    files_ = std::make_unique<subsurface::ReadClouds>(find);
     services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, *lookups_, *files_,
                                                         [](std::string_view) {});
     tracer_ = std::make_unique<render::RayTracer>(scene_, *request.machine, *bound_, *services_);
@@ -63,7 +64,7 @@ private:
   std::unique_ptr<render::BoundShaders> bound_;
   subsurface::CloudCache clouds_;
   std::unique_ptr<subsurface::CloudLookups> lookups_;
-  std::unique_ptr<ReadClouds> files_;
+  std::unique_ptr<subsurface::ReadClouds> files_;
   std::unique_ptr<render::SceneServices> services_;
   std::unique_ptr<render::RayTracer> tracer_;
   std::string problem_;

@@ -33,18 +33,11 @@ private:
   std::unique_ptr<TextureServices> textures_;
 };
 
-/// Files of points that can be read: a case runs several times, and would write as many points.
-class ReadClouds : public subsurface::BakedClouds {
-public:
-  using BakedClouds::BakedClouds;
-  std::string bake(const CloudPoints&) override { return "sltest writes no points; slrender does"; }
-};
-
 /// Clouds of points for subsurface() and plug-ins, of one case.
 struct Clouds {
   explicit Clouds(std::vector<std::string> path);
 
-  ReadClouds files;
+  subsurface::ReadClouds files;
   subsurface::CloudCache cache;
   subsurface::CloudLookups lookups;
 };
