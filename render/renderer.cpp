@@ -13,6 +13,7 @@
 #include "render/texture/depth_image.h"
 #include "render/texture/find_image.h"
 #include "render/texture/texture_maps.h"
+#include "stdlib/scattering/baked_clouds.h"
 #include "stdlib/scattering/cloud_lookups.h"
 
 #include <fmt/format.h>
@@ -42,6 +43,7 @@ struct Renderer::Impl {
   void render(Scene& scene);
   void report_runtime_messages();
   void report_replaced(TextureMaps& textures);
+  void write_points(subsurface::BakedClouds& baked);
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
   void make_what_rays_see(Scene& scene);
@@ -81,6 +83,15 @@ TextureMaps::Settings texture_settings(const Options& options) {
   return s;
 }
 
+/// Finds clouds of points, in the search path of textures. The options must live as long.
+auto cloud_finder(const Options& options) {
+  return [&options](std::string_view name) {
+    const auto folders = options.search_paths.find("texture");
+    if (folders == options.search_paths.end()) return std::string(name);
+    return find_file(name, folders->second).value_or(std::string(name));
+  };
+}
+
 /// For a frame; the options must live as long.
 subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Options& options) {
   subsurface::CloudCache::Settings s;
@@ -88,11 +99,7 @@ subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Opt
   if (auto it = options.named.find("subsurface:treefolder"); it != options.named.end())
     s.folder = it->second.strings[0];
   clouds.configure(std::move(s));
-  return subsurface::CloudLookups(clouds, [&options](std::string_view name) {
-    const auto folders = options.search_paths.find("texture");
-    if (folders == options.search_paths.end()) return std::string(name);
-    return find_file(name, folders->second).value_or(std::string(name));
-  });
+  return subsurface::CloudLookups(clouds, cloud_finder(options));
 }
 
 } // namespace
@@ -116,7 +123,8 @@ void Renderer::Impl::render(Scene& frame) {
   if (s.progress) s.progress(0);
   TextureMaps textures(texture_settings(frame.options));
   subsurface::CloudLookups lookups = cloud_lookups(clouds, frame.options);
-  SceneServices services(frame, shaders, textures, lookups, settings.print);
+  subsurface::BakedClouds baked(cloud_finder(frame.options));
+  SceneServices services(frame, shaders, textures, lookups, baked, settings.print);
   RayTracer rays(frame, machine, shaders, services);
   services.set_rays(&rays);
   VmShading shading(machine, shaders, services);
@@ -142,6 +150,7 @@ void Renderer::Impl::render(Scene& frame) {
     if (std::string why = preview->finish(); !why.empty())
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
+  write_points(baked);
   report_replaced(textures);
   for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
     if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
@@ -226,6 +235,11 @@ void Renderer::Impl::report_runtime_messages() {
     else
       diagnostics.warning({}, "runtime", text);
   }
+}
+
+void Renderer::Impl::write_points(subsurface::BakedClouds& baked) {
+  for (std::string& problem : baked.finish())
+    diagnostics.error({}, std::move(problem));
 }
 
 void Renderer::Impl::report_replaced(TextureMaps& textures) {

@@ -50,6 +50,12 @@ struct TextureLookup {
   }
 };
 
+/// The texels of one level of a mip-map.
+struct TextureTexels {
+  size_t width = 0, height = 0, channels = 0;
+  std::vector<float> values; ///< rows from the top, channels of a texel together; integers are 0 to 1
+};
+
 /// Calls come from many threads at once. They return "" or why there is nothing to be seen (a missing file);
 /// results are then 0.
 class TextureServices {
@@ -65,6 +71,12 @@ public:
   /// "projectionmatrix" matrix, from "current" space. False: no such map or field.
   virtual bool info(std::string_view map, std::string_view field, const Matrix4& current_to_world,
                     Value& out) = 0;
+  /// All of a map at once: level 0 is the largest, each other one half of the one before, down to one texel.
+  virtual std::string texels(std::string_view map, size_t level, TextureTexels& out) {
+    out = {};
+    (void)map, (void)level;
+    return "this program gives no whole maps";
+  }
 };
 
 } // namespace slvm

@@ -45,6 +45,7 @@ public:
   slvm::TextureServices* textures() override { return all_.textures(); }
   slvm::RayServices* rays() override { return &nothing_; }
   slvm::SubsurfaceServices* subsurface() override { return all_.subsurface(); }
+  slvm::PointCloudServices* point_clouds() override { return all_.point_clouds(); }
   void print(const slvm::ShadingState& s, std::string_view text) override { all_.print(s, text); }
 
 private:

@@ -25,10 +25,10 @@ Value text(std::string_view s) {
 } // namespace
 
 SceneServices::SceneServices(const Scene& scene, const BoundShaders& shaders, slvm::TextureServices& textures,
-                             slvm::SubsurfaceServices& subsurface,
+                             slvm::SubsurfaceServices& subsurface, slvm::PointCloudServices& point_clouds,
                              std::function<void(std::string_view)> print)
     : scene_(scene), shaders_(shaders), textures_(textures), subsurface_(subsurface),
-      print_(std::move(print)) {
+      point_clouds_(point_clouds), print_(std::move(print)) {
   auto add = [&](const std::string& name, const Matrix4& to_camera) {
     spaces_[name] = {to_camera, inverse_or_identity(to_camera)};
   };

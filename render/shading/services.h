@@ -19,7 +19,8 @@ class SceneServices : public slvm::RendererServices {
 public:
   /// `print` gets the text of printf, one grid at a time. All arguments must outlive the services.
   SceneServices(const Scene& scene, const BoundShaders& shaders, slvm::TextureServices& textures,
-                slvm::SubsurfaceServices& subsurface, std::function<void(std::string_view)> print);
+                slvm::SubsurfaceServices& subsurface, slvm::PointCloudServices& point_clouds,
+                std::function<void(std::string_view)> print);
 
   /// Spaces that procedurals name while the frame is on its way.
   void add_spaces(const std::map<std::string, Matrix4>& to_camera);
@@ -34,6 +35,7 @@ public:
   slvm::TextureServices* textures() override { return &textures_; }
   slvm::RayServices* rays() override { return rays_; }
   slvm::SubsurfaceServices* subsurface() override { return &subsurface_; }
+  slvm::PointCloudServices* point_clouds() override { return &point_clouds_; }
   /// Who traces rays, which asks these services in turn.
   void set_rays(slvm::RayServices* rays) { rays_ = rays; }
 
@@ -47,6 +49,7 @@ private:
   const BoundShaders& shaders_;
   slvm::TextureServices& textures_;
   slvm::SubsurfaceServices& subsurface_;
+  slvm::PointCloudServices& point_clouds_;
   slvm::RayServices* rays_ = nullptr;
   std::function<void(std::string_view)> print_;
   std::mutex print_mutex_;

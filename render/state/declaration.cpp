@@ -205,6 +205,7 @@ slvm::Result<std::pair<std::string, slvm::Value>> loose_value(const Param& param
   }
   value.type = declared->type;
   value.elements = declared->elements;
+  value.integers = declared->integer;
   value.strings = param.strings;
   size_t count = value.type == slvm::Type::kString ? param.strings.size() : param.numbers.size();
   if (count != static_cast<size_t>(declared->width()))

@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <fmt/format.h>
 #include <fstream>
+#include <limits>
 #include <numbers>
 
 namespace render {
@@ -157,6 +160,40 @@ bool TextureLookups::info(const std::string& file, std::string_view field,
     return false;
   }
   return true;
+}
+
+namespace {
+
+template <class T> void as_numbers(const std::byte* from, std::vector<float>& to) {
+  constexpr float kMost = std::is_same_v<T, float> ? 1.0f : static_cast<float>(std::numeric_limits<T>::max());
+  for (float& value : to) {
+    T stored;
+    std::memcpy(&stored, from, sizeof stored);
+    from += sizeof stored;
+    value = static_cast<float>(stored) / kMost;
+  }
+}
+
+} // namespace
+
+std::string TextureLookups::texels(const std::string& file, size_t level, slvm::TextureTexels& out) {
+  std::string problem;
+  const auto image = find(file, problem);
+  if (!image) return problem;
+  if (level >= image->levels())
+    return fmt::format("it has the levels 0 to {}, and no level {}", image->levels() - 1, level);
+  const TextureImage::Level found = image->level(level);
+  if (!found.texels) return image->problem();
+  out.width = static_cast<size_t>(found.width);
+  out.height = static_cast<size_t>(found.height);
+  out.channels = static_cast<size_t>(image->header().channels);
+  out.values.resize(out.width * out.height * out.channels);
+  switch (image->header().type) {
+  case TexelType::kByte: as_numbers<uint8_t>(found.texels, out.values); break;
+  case TexelType::kShort: as_numbers<uint16_t>(found.texels, out.values); break;
+  case TexelType::kFloat: as_numbers<float>(found.texels, out.values); break;
+  }
+  return {};
 }
 
 std::pair<long long, long long> TextureLookups::usage() {

@@ -26,6 +26,8 @@ public:
   /// slvm::TextureServices::info.
   bool info(const std::string& file, std::string_view field, const slvm::Matrix4& current_to_world,
             slvm::Value& out);
+  /// slvm::TextureServices::texels.
+  std::string texels(const std::string& file, size_t level, slvm::TextureTexels& out);
   /// Files read so far, and bytes of texels in memory.
   std::pair<long long, long long> usage();
 

@@ -64,6 +64,12 @@ bool TextureMaps::info(std::string_view map, std::string_view field, const slvm:
   return lookups_.info(file.path, field, current_to_world, out);
 }
 
+std::string TextureMaps::texels(std::string_view map, size_t level, slvm::TextureTexels& out) {
+  const File& file = file_of(map);
+  if (!file.exists) return kNoFile;
+  return lookups_.texels(file.path, level, out);
+}
+
 namespace {
 
 std::shared_ptr<const ShadowMap> read_shadow_map(const std::string& path, std::string& problem) {

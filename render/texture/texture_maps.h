@@ -31,6 +31,7 @@ public:
   std::string shadow(const slvm::TextureLookup&) override;
   bool info(std::string_view map, std::string_view field, const slvm::Matrix4& current_to_world,
             slvm::Value& out) override;
+  std::string texels(std::string_view map, size_t level, slvm::TextureTexels& out) override;
 
   /// Maps that were missing, and the files found in their place (find_image.h).
   std::map<std::string, std::string> replaced();

@@ -24,6 +24,7 @@ bufferskin(uniform float scatter = 1;        /* 0 to 1: part of the light that g
            uniform float g = 0.6;            /* mean cosine of scattering, -1 to 1 */
            uniform float singlesamples = 8;  /* of single scattering, for each light */
            uniform float innersoft = 1;      /* mm behind the bones at which light is gone */
+           uniform float blur = 0;           /* of what the lights see of skin and bones, a part of their maps: lights that are no points */
            uniform float cell = 2, depth = 0.12; /* of the relief: width of cells and depth of creases, mm; 0: smooth */
            uniform float Kcoat = 1;          /* 0 to 1 */
            uniform float coateta = 1.4;      /* index of refraction of the oil, 1 to 2 */
@@ -51,9 +52,11 @@ bufferskin(uniform float scatter = 1;        /* 0 to 1: part of the light that g
       lightsource("skinnormals", normals);
       lightsource("innermap", inner);
       if (skin != "") {
-        deep += Cl * diffusionscatteringbymap(P, L, albedo, mm * freepath, eta, samples, skin, inner, innersoft * mm);
+        deep += Cl * diffusionscatteringbymap(P, L, albedo, mm * freepath, eta, samples, skin, inner, innersoft * mm,
+                                                blur);
         if (Ksingle > 0)
-          single += Cl * singlescatteringbymap(P, Nf, In, L, sigma_a, sigma_s, g, eta, singlesamples, skin, normals, inner, innersoft * mm);
+          single += Cl * singlescatteringbymap(P, Nf, In, L, sigma_a, sigma_s, g, eta, singlesamples, skin, normals, inner,
+                                                       innersoft * mm, blur);
       } else
         plain += Cl * max(normalize(L) . Nb, 0);
     }

@@ -157,7 +157,9 @@ private:
   const slvm::PluginSource* plugins_;
   std::map<std::string, slvm::PluginSource::Functions> plugin_functions_; ///< by name, as far as known
   std::set<std::string> searched_;
-  slvm::PluginShadeops called_plugins_; ///< no more than a compiled shader can name
+  std::set<std::string> asked_loaded_;      ///< names that loaded plug-ins were asked for
+  slvm::PluginShadeops called_plugins_;     ///< no more than a compiled shader can name
+  std::vector<std::string> loaded_plugins_; ///< by statements
   std::map<std::string, std::vector<std::string>> plugin_trouble_; ///< what was wrong with libraries, by name
   Scopes scopes_;
   Usage usage_;

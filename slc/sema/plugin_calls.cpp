@@ -16,6 +16,7 @@ void Checker::load_plugins() {
         d.notes.push_back({{}, std::move(text)});
       continue;
     }
+    loaded_plugins_.push_back(statement.name);
     for (auto& function : functions)
       plugin_functions_[function->name().function].push_back(std::move(function));
   }
@@ -23,6 +24,10 @@ void Checker::load_plugins() {
 
 const slvm::PluginSource::Functions& Checker::plugin_functions(const std::string& name, bool search) {
   slvm::PluginSource::Functions& known = plugin_functions_[name];
+  if (!in_library_ && !loaded_plugins_.empty() && asked_loaded_.insert(name).second)
+    for (const std::string& library : loaded_plugins_)
+      for (auto& function : plugins_->find_in(library, name, plugin_trouble_[name]))
+        known.push_back(std::move(function));
   if (search && known.empty() && plugins_ && !in_library_ && searched_.insert(name).second)
     known = plugins_->find(name, plugin_trouble_[name]);
   return known;
@@ -47,9 +52,13 @@ bool Checker::fill_array(Expr* value, const std::string& name) {
 }
 
 // A function that is called by point gets the addresses of its arguments. Unless its prototype says which it
-// stores to, those that are variables of just the parameter's type are taken to be stored to.
+// stores to, those that are variables of just the parameter's type are taken to be stored to. So are those of
+// a function called by grid that gives nothing back otherwise: some renderers knew no `output` there.
 void Checker::let_store(Candidate& chosen, const CallExpr& call) {
-  if (chosen.plugin->name().form != slvm::PluginForm::kPointwise) return;
+  const bool by_grid = chosen.plugin->name().form == slvm::PluginForm::kGrid;
+  if (chosen.plugin->name().form != slvm::PluginForm::kPointwise &&
+      !(by_grid && chosen.result() == Type::kVoid))
+    return;
   std::vector<bool> stores(call.args.size());
   bool any = false;
   for (size_t i = 0; i < call.args.size(); ++i) {

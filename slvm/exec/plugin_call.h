@@ -17,6 +17,9 @@ const AnemonePluginServices& plugin_services();
 int plugin_lookup(void* context, const AnemoneLookup* lookup);
 int plugin_texture_info(void* context, const char* map, const char* name, void* result, int length,
                         RxInfoType_t* type, int* count);
+int plugin_cloud_point(void* context, const AnemoneCloudPoint* point);
+int plugin_texels(void* context, const char* map, int channels, const int* channel, int level, int face,
+                  float* result);
 /// The call that is under way, or null.
 const GridCall* call_of(void* context);
 /// Stores the answer to a query as sdk/rx.h has it.

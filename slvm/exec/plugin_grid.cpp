@@ -11,6 +11,7 @@
 namespace slvm {
 
 constexpr size_t kLongestText = 1 << 20; // of a string that is taken over from a function
+constexpr size_t kRoomOfNothing = 16;
 
 class PluginArgument final : public RslArg, private RslResizer {
 public:
@@ -33,7 +34,8 @@ public:
       load_strings(call, o, points, all);
       return;
     }
-    numbers_.assign(all * per_point_, 0.0f);
+    // Of nothing there is room for anything: functions without a result have been seen to set it.
+    numbers_.assign(o.what.type == Type::kVoid ? kRoomOfNothing : all * per_point_, 0.0f);
     if (!o.from) return;
     const Operand& p = o.from->planes;
     const size_t first = points.front(); // of a varying array that is passed as uniform

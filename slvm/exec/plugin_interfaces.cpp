@@ -122,7 +122,7 @@ void PluginStorage::clear() {
   }
 }
 
-RixMutex* PluginThreadUtils::NewMutex() {
+RixMutex* PluginThreadUtils::NewMutex() const {
   return new Mutex;
 }
 

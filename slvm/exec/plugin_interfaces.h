@@ -75,7 +75,7 @@ private:
 
 class PluginThreadUtils : public RixThreadUtils {
 public:
-  RixMutex* NewMutex() override;
+  RixMutex* NewMutex() const override;
 };
 
 /// Kept until the end of the frame.

@@ -83,6 +83,29 @@ int plugin_lookup(void* context, const AnemoneLookup* asked) {
   return 0;
 }
 
+int plugin_texels(void* context, const char* map, int channels, const int* channel, int level, int face,
+                  float* result) {
+  const GridCall* call = call_of(context);
+  if (!call || !map || !*map || channels < 1 || !channel || level < 0 || !result) return -1;
+  TextureServices* textures = call->run.state.services.textures();
+  TextureTexels texels;
+  std::string problem = !textures   ? "this program has no textures"
+                        : face != 0 ? fmt::format("it has one face, number 0, and no face {}", face)
+                                    : textures->texels(map, static_cast<size_t>(level), texels);
+  for (int c = 0; c < channels && problem.empty(); ++c)
+    if (channel[c] < 0 || static_cast<size_t>(channel[c]) >= texels.channels)
+      problem = fmt::format("it has {} channels, and no channel {}", texels.channels, channel[c]);
+  if (!problem.empty()) {
+    call->run.report(call->code, MessageSeverity::kWarning,
+                     fmt::format("RxTextureGetData of a plug-in, \"{}\": {}", map, problem), 1);
+    return -1;
+  }
+  for (size_t i = 0; i < texels.width * texels.height; ++i)
+    for (int c = 0; c < channels; ++c)
+      *result++ = texels.values[i * texels.channels + static_cast<size_t>(channel[c])];
+  return 0;
+}
+
 int plugin_texture_info(void* context, const char* map, const char* name, void* result, int length,
                         RxInfoType_t* type, int* count) {
   const GridCall* call = call_of(context);

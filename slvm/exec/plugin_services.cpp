@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace slvm {
 namespace {
@@ -60,8 +61,9 @@ int matrix(void* context, const char* from, const char* to, float* sixteen) {
   return 0;
 }
 
-RxInfoType_t info_type(Type t) {
-  switch (t) {
+RxInfoType_t info_type(const Value& value) {
+  if (value.integers) return RxInfoInteger;
+  switch (value.type) {
   case Type::kColor: return RxInfoColor;
   case Type::kPoint: return RxInfoPoint;
   case Type::kVector: return RxInfoVector;
@@ -96,6 +98,13 @@ int place(void* context, int* line, const char** file) {
   return 0;
 }
 
+int missing(void* context, const char* function, const char* advice) {
+  if (const GridCall* call = call_of(context))
+    call->run.report(call->code, MessageSeverity::kWarning,
+                     fmt::format("{} of a plug-in is not there: {}", function, advice), 1);
+  return -1;
+}
+
 void* context_of_call(void* context) {
   return context ? static_cast<RixContext*>(static_cast<PluginContext*>(context)) : nullptr;
 }
@@ -112,22 +121,35 @@ int give_value(const GridCall& call, const Value& value, void* result, int lengt
   std::vector<const char*> texts;
   for (const std::string& s : value.strings)
     texts.push_back(strings.text(strings.intern(s)).data());
-  const size_t bytes =
-      value.type == Type::kString ? texts.size() * sizeof(const char*) : value.numbers.size() * sizeof(float);
+  std::vector<int> integers;
+  static_assert(sizeof(int) == sizeof(float));
+  if (value.integers)
+    for (float number : value.numbers)
+      integers.push_back(static_cast<int>(number));
+  const bool is_text = value.type == Type::kString;
+  const size_t bytes = is_text ? texts.size() * sizeof(const char*) : value.numbers.size() * sizeof(float);
+  const void* from = is_text          ? static_cast<const void*>(texts.data())
+                     : value.integers ? static_cast<const void*>(integers.data())
+                                      : value.numbers.data();
   if (length < 0 || bytes > static_cast<size_t>(length)) return static_cast<int>(bytes);
-  if (bytes)
-    std::memcpy(result,
-                value.type == Type::kString ? static_cast<const void*>(texts.data()) : value.numbers.data(),
-                bytes);
-  if (type) *type = info_type(value.type);
+  if (bytes) std::memcpy(result, from, bytes);
+  if (type) *type = info_type(value);
   if (count) *count = static_cast<int>(value.count());
   return 0;
 }
 
 const AnemonePluginServices& plugin_services() {
-  static constexpr AnemonePluginServices kServices{
-      ANEMONE_PLUGIN_SERVICES, noise, matrix, query, context_of_call, plugin_lookup,
-      plugin_texture_info,     place};
+  static constexpr AnemonePluginServices kServices{ANEMONE_PLUGIN_SERVICES,
+                                                   noise,
+                                                   matrix,
+                                                   query,
+                                                   context_of_call,
+                                                   plugin_lookup,
+                                                   plugin_texture_info,
+                                                   place,
+                                                   plugin_cloud_point,
+                                                   plugin_texels,
+                                                   missing};
   return kServices;
 }
 

@@ -97,10 +97,13 @@ public:
   /// The functions of this name, overloads in the order of their table; empty when no library on the path has
   /// one. `trouble`: what was wrong with libraries that might have had it, a sentence each.
   virtual Functions find(std::string_view function, std::vector<std::string>& trouble) const = 0;
-  /// All functions of the library of this name, for the statement `plugin "name";`. False: there is none, or
-  /// it cannot be used, which `trouble` tells.
+  /// All functions called by grid of the library of this name, for the statement `plugin "name";`. False:
+  /// there is none, or it cannot be used, which `trouble` tells.
   virtual bool load(std::string_view library, Functions& functions,
                     std::vector<std::string>& trouble) const = 0;
+  /// The functions called by point of this name in a library that load() found: it cannot list those.
+  virtual Functions find_in(std::string_view library, std::string_view function,
+                            std::vector<std::string>& trouble) const = 0;
 };
 
 } // namespace slvm

@@ -69,4 +69,18 @@ bool PluginFinder::load(std::string_view name, Functions& functions,
   return true;
 }
 
+PluginSource::Functions PluginFinder::find_in(std::string_view name, std::string_view function,
+                                              std::vector<std::string>& trouble) const {
+  std::lock_guard lock(mutex_);
+  Functions found;
+  std::string error;
+  const std::string file = find_library(name, folders_);
+  const auto library = file.empty() ? nullptr : open(file, error);
+  if (!library) return found;
+  std::vector<PluginEntry> entries = library->functions(std::string(function), trouble);
+  std::erase_if(entries, [](const PluginEntry& e) { return e.form != PluginForm::kPointwise; });
+  add(entries, file, found);
+  return found;
+}
+
 } // namespace slvm

@@ -15,6 +15,8 @@ public:
 
   Functions find(std::string_view function, std::vector<std::string>& trouble) const override;
   bool load(std::string_view library, Functions& functions, std::vector<std::string>& trouble) const override;
+  Functions find_in(std::string_view library, std::string_view function,
+                    std::vector<std::string>& trouble) const override;
 
 private:
   /// Opened now or earlier; null with its error in `error`.

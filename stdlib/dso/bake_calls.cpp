@@ -10,34 +10,11 @@
 #include <fmt/format.h>
 #include <map>
 #include <mutex>
-#include <numeric>
 
 namespace subsurface_plugin {
 namespace {
 
 using namespace subsurface;
-
-/// In an order that does not depend on which grid came first.
-void sort_points(PointCloud& cloud) {
-  std::vector<size_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  auto key = [&](size_t i) {
-    const Vec3 p = cloud.position[i], n = cloud.normal[i];
-    return std::tuple(p.x, p.y, p.z, n.x, n.y, n.z, cloud.area[i]);
-  };
-  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
-  auto arrange = [&](auto& column) {
-    if (column.empty()) return;
-    auto before = column;
-    for (size_t i = 0; i < order.size(); ++i)
-      column[i] = before[order[i]];
-  };
-  arrange(cloud.position);
-  arrange(cloud.normal);
-  arrange(cloud.area);
-  arrange(cloud.irradiance);
-  arrange(cloud.albedo);
-}
 
 /// The clouds of a frame, by file.
 struct BakedClouds {
@@ -79,15 +56,6 @@ struct BakedMeshes {
   std::mutex mutex;
   std::map<std::string, std::vector<Triangle>> meshes;
 };
-
-void append(PointCloud& to, const PointCloud& from) {
-  auto add = [](auto& column, const auto& more) { column.insert(column.end(), more.begin(), more.end()); };
-  add(to.position, from.position);
-  add(to.normal, from.normal);
-  add(to.area, from.area);
-  add(to.irradiance, from.irradiance);
-  add(to.albedo, from.albedo);
-}
 
 std::vector<Vec3> values_of(const RslArg* arg, size_t points) {
   float* data = nullptr;

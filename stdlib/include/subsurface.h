@@ -150,16 +150,28 @@ color diffusionscattering(point P; normal Nn; color albedo; color freepath; floa
   return sum;
 }
 
-/* The nearest place towards a light, by its shadow map: where light to p enters. False (0): the map shows nothing there. The light's camera
- * may be of either projection; the map holds the translucent object only.
+/* How far beside its place a lookup in a map is, in s and t: by chance within a disc of this width, a part of the map as shadow()'s "blur". A
+ * light that is no point shows so what its map, made from one place, has sharp.
  */
-float entrybymap(uniform string map; point p; output point Pi) {
+vector besideinmap(uniform float blur) {
+  vector aside = 0;
+  if (blur > 0) {
+    float r = 0.5 * blur * sqrt(random()), angle = 2 * PI * random();
+    aside = r * vector (cos(angle), sin(angle), 0);
+  }
+  return aside;
+}
+
+/* The nearest place towards a light, by its shadow map: where light to p enters. False (0): the map shows nothing there. The light's camera
+ * may be of either projection; the map holds the translucent object only. aside: of besideinmap(), or 0.
+ */
+float entrybymap(uniform string map; point p; vector aside; output point Pi) {
   uniform matrix toEye = 1, toScreen = 1;
   textureinfo(map, "viewingmatrix", toEye);
   textureinfo(map, "projectionmatrix", toScreen);
   uniform matrix fromEye = 1 / toEye;
   point seen = transform(toEye, p), onScreen = transform(toScreen, p);
-  float s = 0.5 * (1 + xcomp(onScreen)), t = 0.5 * (1 - ycomp(onScreen));
+  float s = 0.5 * (1 + xcomp(onScreen)) + xcomp(aside), t = 0.5 * (1 - ycomp(onScreen)) + ycomp(aside);
   float depth = float texture(map, s, t, s, t, s, t, s, t, "samples", 1);
   if (comp(toScreen, 3, 3) == 1) /* orthographic */
     setzcomp(seen, depth);
@@ -170,12 +182,12 @@ float entrybymap(uniform string map; point p; output point Pi) {
 }
 
 /* A normal from a picture of normals in the camera space of a light, made with its shadow map. */
-normal normalbymap(uniform string map; uniform string normals; point p) {
+normal normalbymap(uniform string map; uniform string normals; point p; vector aside) {
   uniform matrix toEye = 1, toScreen = 1;
   textureinfo(map, "viewingmatrix", toEye);
   textureinfo(map, "projectionmatrix", toScreen);
   point onScreen = transform(toScreen, p);
-  float s = 0.5 * (1 + xcomp(onScreen)), t = 0.5 * (1 - ycomp(onScreen));
+  float s = 0.5 * (1 + xcomp(onScreen)) + xcomp(aside), t = 0.5 * (1 - ycomp(onScreen)) + ycomp(aside);
   color c = color texture(normals, s, t, s, t, s, t, s, t, "samples", 1);
   return normalize(ntransform(1 / toEye, normal (comp(c, 0), comp(c, 1), comp(c, 2))));
 }
@@ -183,13 +195,13 @@ normal normalbymap(uniform string map; uniform string normals; point p) {
 /* The part of light from Pi to p that things inside let through, by a map of them from the same light ("": nothing is inside). Where they lie
  * between by `soft` or more nothing gets through.
  */
-float pastblockers(uniform string inner; point p; float soft) {
+float pastblockers(uniform string inner; point p; vector aside; float soft) {
   float through = 1;
   if (inner != "") {
     uniform matrix toEye = 1;
     textureinfo(inner, "viewingmatrix", toEye);
     point at = 0;
-    if (entrybymap(inner, p, at) == 1)
+    if (entrybymap(inner, p, aside, at) == 1)
       through = 1 - smoothstep(0, soft, zcomp(transform(toEye, p)) - zcomp(transform(toEye, at)));
   }
   return through;
@@ -206,32 +218,35 @@ float pastothers(uniform string outer; point P) {
 }
 
 /* As singlescattering(), by the light's shadow map. normals: a picture of normals from the light, "": the light enters straight. inner, soft:
- * as for pastblockers().
+ * as for pastblockers(). blur: of all maps, as for besideinmap(); 0: of a point.
  */
 color singlescatteringbymap(point P; normal Nn; vector In; vector L; color sigma_a; color sigma_s; float g; float eta;
-                            uniform float samples; uniform string map; uniform string normals; uniform string inner; float soft) {
+                            uniform float samples; uniform string map; uniform string normals; uniform string inner; float soft;
+                            uniform float blur) {
   vector toLight = normalize(L), To = normalize(refract(In, vector Nn, 1 / eta));
   float turn = floor(3 * random()), i;
   color sum = 0;
   for (i = 0; i < samples; i += 1) {
     float after = turningdepth(i, samples, turn, sigma_a + sigma_s);
     point place = P + after * To, Pi = 0;
-    if (entrybymap(map, place, Pi) == 1) {
+    vector aside = besideinmap(blur);
+    if (entrybymap(map, place, aside, Pi) == 1) {
       normal Ni = normal toLight;
-      if (normals != "") Ni = normalbymap(map, normals, place);
+      if (normals != "") Ni = normalbymap(map, normals, place, aside);
       /* Behind its own entry by rounding only: the light does not go in. */
       float before = max((Pi - place) . toLight, 0);
-      sum += pastblockers(inner, place, soft) * turnedonce(To, toLight, Ni, before, after, sigma_a, sigma_s, g, eta);
+      sum += pastblockers(inner, place, aside, soft) * turnedonce(To, toLight, Ni, before, after, sigma_a, sigma_s, g, eta);
     }
   }
   return PI * sum / samples;
 }
 
 /* Diffusion of one light by its shadow map, for a loop over lights: `sum += Cl * diffusionscatteringbymap(...)`. Samples lie in a plane
- * across the light and go to the surface along it, so that the cosine of the light is in how they spread: the loop has none.
+ * across the light and go to the surface along it, so that the cosine of the light is in how they spread: the loop has none. inner, soft,
+ * blur: as above.
  */
 color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; float eta; uniform float samples; uniform string map;
-                               uniform string inner; float soft) {
+                               uniform string inner; float soft; uniform float blur) {
   vector toLight = normalize(L);
   vector base1 = axisacross(toLight), base2 = base1 ^ toLight;
   float turn = 2 * PI * random(), first = floor(3 * random());
@@ -240,8 +255,9 @@ color diffusionscatteringbymap(point P; vector L; color albedo; color freepath; 
   for (i = 0; i < samples; i += 1) {
     float r = 0;
     point place = P + diffusionplace(i, samples, freepath, first, turn, base1, base2, r), Pi = 0;
-    if (entrybymap(map, place, Pi) == 1)
-      sum += pastblockers(inner, place, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta) / diffusiondensity(r, freepath);
+    vector aside = besideinmap(blur);
+    if (entrybymap(map, place, aside, Pi) == 1)
+      sum += pastblockers(inner, place, aside, soft) * dipoleof(distance(P, Pi), albedo, freepath, eta) / diffusiondensity(r, freepath);
   }
   return sum / samples;
 }

@@ -1,6 +1,7 @@
 #include "stdlib/subsurface/diffusion_tree.h"
 
 #include "stdlib/subsurface/dipole_block.h"
+#include "stdlib/subsurface/parallel.h"
 
 #include <cassert>
 #include <fmt/format.h>
@@ -71,12 +72,15 @@ DiffusionMaterial::DiffusionMaterial(const DiffusionTree& tree, Color mean_free_
   auto sources = [&](Color albedo) {
     return sources_of(dipole_of(medium_of(albedo, mean_free_path, 0, eta, how), how));
   };
-  samples_.reserve(tree.size());
-  for (size_t i = 0; i < tree.size(); ++i)
-    samples_.push_back(sources(tree.albedo_.empty() ? Color{0.5f, 0.5f, 0.5f} : tree.albedo_[i]));
+  samples_.resize(tree.size());
+  parallel_ranges(tree.size(), 0, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      samples_[i] = sources(tree.albedo_.empty() ? Color{0.5f, 0.5f, 0.5f} : tree.albedo_[i]);
+  });
   const auto nodes = tree.octree_.nodes();
-  groups_.reserve(nodes.size());
-  for (const PointOctree::Node& node : nodes) {
+  groups_.resize(nodes.size());
+  auto make_group = [&](size_t n) {
+    const PointOctree::Node& node = nodes[n];
     Color sum, weights, plain;
     for (uint32_t i = node.begin; i < node.end && !tree.albedo_.empty(); ++i) {
       const Color flux = tree.flux_[i], weight{std::abs(flux.x), std::abs(flux.y), std::abs(flux.z)};
@@ -86,8 +90,15 @@ DiffusionMaterial::DiffusionMaterial(const DiffusionTree& tree, Color mean_free_
     }
     for (int c = 0; c < 3; ++c)
       sum[c] = tree.albedo_.empty() ? 0.5f : weights[c] > 0 ? sum[c] / weights[c] : plain[c];
-    groups_.push_back(sources(sum));
-  }
+    groups_[n] = sources(sum);
+  };
+  // Interleaved, as nodes near the root are the large ones.
+  constexpr size_t kStripes = 16;
+  parallel_ranges(kStripes, 0, [&](size_t begin, size_t end) {
+    for (size_t stripe = begin; stripe < end; ++stripe)
+      for (size_t n = stripe; n < nodes.size(); n += kStripes)
+        make_group(n);
+  });
   reach_ = std::max({mean_free_path.x, mean_free_path.y, mean_free_path.z});
 }
 
@@ -167,9 +178,12 @@ void DiffusionTree::sum_groups() {
   }
 }
 
-/// One lookup: collects sources in blocks and sums them.
+/// Lookups at some places that are near each other, as those of a grid: they go through the tree together,
+/// and what counts for one of them counts for most.
 class DiffusionTree::Gather {
 public:
+  static constexpr size_t kMost = 16; ///< places
+
   Gather(const DiffusionTree& tree, const DiffusionMaterial& material, const LookupOptions& options)
       : tree_(tree), material_(material), options_(options),
         everywhere_(options.shell.inner <= 0 && !std::isfinite(options.shell.outer)),
@@ -179,60 +193,105 @@ public:
     full_begin_ = s.inner > 0 ? s.inner * (1 + s.fade) : 0;
     full_end_ = s.outer * (1 - s.fade);
     end_ = s.outer * (1 + s.fade);
-    std::fill(std::begin(distance2_), std::end(distance2_), 1.0f); // no lane divides by 0
+    // Lanes that never get a source hold finite numbers, and no lane divides by 0.
+    for (size_t lane = 0; lane < kBlock; ++lane)
+      set_lane(lane, {}, {}, material_.samples_.empty() ? kNothing : material_.samples_[0]);
   }
 
-  /// Place `at` of the lookup's.
-  Color run(Vec3 x, size_t at, LookupCount* count) {
-    if (follows_) normal_ = options_.normals[at];
-    for (auto& lanes : sum_)
-      std::fill(std::begin(lanes), std::end(lanes), 0.0f);
+  /// Places x, the first of which is `first` of the lookup's.
+  void run(std::span<const Vec3> x, size_t first, std::span<Color> out, LookupCount* count) {
+    x_ = x;
+    if (follows_) normals_ = options_.normals.subspan(first, x.size());
+    std::fill_n(sums_.begin(), x.size(), DipoleSums());
     count_ = {};
     const auto nodes = tree_.octree_.nodes();
     todo_.clear();
-    if (!nodes.empty()) todo_.push_back({0, 1});
+    if (!nodes.empty()) {
+      Open root{0, {}};
+      std::fill_n(root.part.begin(), x.size(), 1.0f);
+      todo_.push_back(root);
+    }
     while (!todo_.empty()) {
-      const Open open = todo_.back();
+      Open open = todo_.back();
       todo_.pop_back();
       const PointOctree::Node& node = nodes[open.node];
-      const Group& group = tree_.groups_[open.node];
-      if (group.dark || !reaches(node, x)) continue;
-      float rest = open.part;
-      const Vec3 from = x - group.position;
-      const float d2 = length2(from);
-      if (group.area <= options_.epsilon * d2 && !node.contains(x) && fully_inside(node, x)) {
-        const float part =
-            options_.smooth ? open.part * part_of_group(group.area / (options_.epsilon * d2)) : open.part;
-        if (part > 0) {
-          add(d2, group.flux * (part * passed(from, d2, group.normal)),
-              material_.uniform_ ? nullptr : &material_.groups_[open.node]);
-          ++count_.groups;
-        }
-        rest -= part;
-        if (rest <= 0) continue;
+      if (tree_.groups_[open.node].dark || !take_group(node, open)) continue;
+      if (!node.children) {
+        add_samples(node, open.part);
+        continue;
       }
-      if (node.children)
-        for (uint32_t i = node.children; i-- > 0;)
-          todo_.push_back({node.first_child + i, rest});
-      else
-        add_samples(node, x, rest);
+      for (uint32_t i = node.children; i-- > 0;) {
+        todo_.push_back(open);
+        todo_.back().node = node.first_child + i;
+      }
     }
+    if (filled_) flush();
+    for (size_t k = 0; k < x.size(); ++k)
+      out[k] = sums_[k].total();
     if (count) count->groups += count_.groups, count->samples += count_.samples;
-    return finish();
   }
 
 private:
-  /// A node still to be visited, and which part of its light is still to be counted.
+  using Parts = std::array<float, kMost>; ///< a number for each place
+  /// A node still to be visited, and which part of its light is still to be counted at each place.
   struct Open {
     uint32_t node;
-    float part;
+    Parts part;
   };
 
-  /// What does not cross air, of the light of samples whose mean normal is `normal`; `from` them to x.
-  float passed(Vec3 from, float d2, Vec3 normal) const {
+  /// Lets the group stand for its members where it is seen small. Whether anything is left to be counted.
+  bool take_group(const PointOctree::Node& node, Open& open) {
+    const Group& group = tree_.groups_[open.node];
+    Parts weight{};
+    bool taken = false, left = false;
+    for (size_t k = 0; k < x_.size(); ++k) {
+      float& rest = open.part[k];
+      if (rest > 0 && !reaches(node, x_[k])) rest = 0;
+      if (rest <= 0) continue;
+      const Vec3 from = x_[k] - group.position;
+      const float d2 = length2(from);
+      if (group.area <= options_.epsilon * d2 && !node.contains(x_[k]) && fully_inside(node, x_[k])) {
+        const float part =
+            options_.smooth ? rest * part_of_group(group.area / (options_.epsilon * d2)) : rest;
+        weight[k] = part * passed(k, from, d2, group.normal);
+        taken |= part > 0;
+        count_.groups += part > 0;
+        rest -= part;
+      }
+      left |= rest > 0;
+    }
+    if (taken)
+      add(group.position, group.flux, weight, material_.uniform_ ? nullptr : &material_.groups_[open.node]);
+    return left;
+  }
+
+  void add_samples(const PointOctree::Node& node, const Parts& part) {
+    const bool plain = everywhere_ && !follows_;
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      const Vec3 at = tree_.octree_.positions()[i];
+      Parts weight = part;
+      for (size_t k = 0; k < x_.size(); ++k) {
+        if (part[k] <= 0) {
+          weight[k] = 0;
+          continue;
+        }
+        if (!plain) weight[k] *= weight_of_sample(k, x_[k] - at, i);
+        count_.samples += weight[k] != 0;
+      }
+      add(at, tree_.flux_[i], weight, material_.uniform_ ? nullptr : &material_.samples_[i]);
+    }
+  }
+
+  float weight_of_sample(size_t k, Vec3 from, uint32_t sample) const {
+    const float d2 = length2(from), weight = everywhere_ ? 1 : options_.shell.weight(std::sqrt(d2));
+    return weight == 0 || !follows_ ? weight : weight * passed(k, from, d2, tree_.normal_[sample]);
+  }
+
+  /// What does not cross air, of the light of samples whose mean normal is `normal`; `from` them to a place.
+  float passed(size_t k, Vec3 from, float d2, Vec3 normal) const {
     if (!follows_) return 1;
     const float reach = std::max(std::sqrt(d2), material_.reach_);
-    const float facing = (1 - dot(normal_, normal)) * (1 - dot(normal_, from) / reach) / 2;
+    const float facing = (1 - dot(normals_[k], normal)) * (1 - dot(normals_[k], from) / reach) / 2;
     return 1 - options_.follow_topology * std::clamp(facing, 0.0f, 1.0f);
   }
 
@@ -247,65 +306,54 @@ private:
            node.far_distance2(x) < full_end_ * full_end_;
   }
 
-  void add_samples(const PointOctree::Node& node, Vec3 x, float part) {
-    for (uint32_t i = node.begin; i < node.end; ++i) {
-      const Vec3 from = x - tree_.octree_.positions()[i];
-      const float d2 = length2(from);
-      float weight = everywhere_ ? part : part * options_.shell.weight(std::sqrt(d2));
-      if (weight == 0) continue;
-      if (follows_) weight *= passed(from, d2, tree_.normal_[i]);
-      add(d2, tree_.flux_[i] * weight, material_.uniform_ ? nullptr : &material_.samples_[i]);
-      ++count_.samples;
+  void set_lane(size_t lane, Vec3 position, Color flux, const DiffusionMaterial::Sources& sources) {
+    for (int c = 0; c < 3; ++c) {
+      block_.position[c][lane] = position[c];
+      block_.flux[c][lane] = flux[c];
+      block_.dipole[c].gain[lane] = sources.gain[c];
+      block_.dipole[c].transport[lane] = sources.transport[c];
+      block_.dipole[c].z_real[lane] = sources.z_real[c];
+      block_.dipole[c].z_virtual[lane] = sources.z_virtual[c];
     }
   }
 
-  void add(float distance2, Color flux, const DiffusionMaterial::Sources* sources) {
-    distance2_[filled_] = distance2;
-    for (int c = 0; c < 3; ++c) {
-      flux_[c][filled_] = flux[c];
-      if (!sources) continue;
-      lanes_[c].gain[filled_] = sources->gain[c];
-      lanes_[c].transport[filled_] = sources->transport[c];
-      lanes_[c].z_real[filled_] = sources->z_real[c];
-      lanes_[c].z_virtual[filled_] = sources->z_virtual[c];
+  /// `sources` null: those of all.
+  void add(Vec3 position, Color flux, const Parts& weight, const DiffusionMaterial::Sources* sources) {
+    if (sources) {
+      set_lane(filled_, position, flux, *sources);
+    } else {
+      for (int c = 0; c < 3; ++c) {
+        block_.position[c][filled_] = position[c];
+        block_.flux[c][filled_] = flux[c];
+      }
     }
+    for (size_t k = 0; k < x_.size(); ++k)
+      weight_[k][filled_] = weight[k];
     if (++filled_ == kBlock) flush();
   }
 
   void flush() {
-    for (size_t c = 0; c < 3; ++c) {
-      if (!material_.uniform_) {
-        add_dipoles(distance2_, flux_[c], lanes_[c], sum_[c]);
-        continue;
-      }
-      const DiffusionMaterial::Sources& s = material_.samples_[0];
-      add_dipoles(distance2_, flux_[c], s.gain[c], s.transport[c], s.z_real[c], s.z_virtual[c], sum_[c]);
+    for (size_t k = 0; k < x_.size(); ++k) {
+      std::fill(weight_[k] + filled_, weight_[k] + kBlock, 0.0f);
+      if (std::any_of(weight_[k], weight_[k] + filled_, [](float w) { return w != 0; }))
+        add_dipoles(block_, x_[k], weight_[k], sums_[k]);
     }
     filled_ = 0;
   }
 
-  Color finish() {
-    // Lanes that are left have no light; what else stands in them is from an earlier block, and finite.
-    for (size_t i = filled_; i < kBlock; ++i)
-      flux_[0][i] = flux_[1][i] = flux_[2][i] = 0;
-    if (filled_) flush();
-    Color total;
-    for (int c = 0; c < 3; ++c)
-      for (float lane : sum_[c])
-        total[c] += lane;
-    return total;
-  }
+  static constexpr DiffusionMaterial::Sources kNothing{{}, {}, {1, 1, 1}, {1, 1, 1}};
 
   const DiffusionTree& tree_;
   const DiffusionMaterial& material_;
   const LookupOptions& options_;
   bool everywhere_, follows_;
-  Vec3 normal_; // at x
-  std::vector<Open> todo_;
   float begin_, full_begin_, full_end_, end_;
+  std::span<const Vec3> x_, normals_;
+  std::vector<Open> todo_;
   size_t filled_ = 0;
-  float distance2_[kBlock], flux_[3][kBlock] = {}, sum_[3][kBlock] = {};
-  DipoleLanes lanes_[3] = {};
+  DipoleBlock block_{};
+  alignas(64) float weight_[kMost][kBlock] = {};
+  std::array<DipoleSums, kMost> sums_;
   LookupCount count_;
 };
 
@@ -314,12 +362,22 @@ void DiffusionTree::exitance(const DiffusionMaterial& material, std::span<const 
   assert(out.size() >= x.size());
   assert(options.normals.empty() || options.normals.size() >= x.size());
   Gather gather(*this, material, options);
-  for (size_t i = 0; i < x.size(); ++i)
-    out[i] = gather.run(x[i], i, count);
+  // What is near compared with the samples meets the same groups. A guess that costs time at worst.
+  constexpr float kNearSamples = 8;
+  const float samples = static_cast<float>(std::max<size_t>(size(), 1));
+  const float near2 = groups_.empty() ? 0 : kNearSamples * kNearSamples * groups_[0].area / samples;
+  for (size_t i = 0, end; i < x.size(); i = end) {
+    end = i + 1;
+    while (end < x.size() && end - i < Gather::kMost && length2(x[end] - x[i]) <= near2)
+      ++end;
+    gather.run(x.subspan(i, end - i), i, out.subspan(i), count);
+  }
 }
 
 Color DiffusionTree::exitance(const DiffusionMaterial& material, Vec3 x, const LookupOptions& options) const {
-  return Gather(*this, material, options).run(x, 0, nullptr);
+  Color light;
+  exitance(material, std::span(&x, 1), options, std::span(&light, 1));
+  return light;
 }
 
 } // namespace subsurface

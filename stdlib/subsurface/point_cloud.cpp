@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
+#include <tuple>
 
 namespace subsurface {
 namespace {
@@ -88,6 +90,45 @@ std::string check(const PointCloud& cloud) {
     if (problem.empty() && c.values.size() != n) problem = fmt::format("the channel '{}' is empty", c.name);
   }
   return problem;
+}
+
+void append(PointCloud& to, const PointCloud& from) {
+  if (from.size() == 0) return;
+  if (to.size() == 0) {
+    to = from;
+    return;
+  }
+  auto add = [](auto& column, const auto& more) { column.insert(column.end(), more.begin(), more.end()); };
+  add(to.position, from.position);
+  add(to.normal, from.normal);
+  add(to.area, from.area);
+  add(to.irradiance, from.irradiance);
+  add(to.albedo, from.albedo);
+  for (size_t i = 0; i < to.channels.size(); ++i)
+    add(to.channels[i].values, from.channels[i].values);
+}
+
+void sort_points(PointCloud& cloud) {
+  std::vector<size_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  auto key = [&](size_t i) {
+    const Vec3 p = cloud.position[i], n = cloud.normal.empty() ? Vec3() : cloud.normal[i];
+    return std::tuple(p.x, p.y, p.z, n.x, n.y, n.z, cloud.area.empty() ? 0.0f : cloud.area[i]);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return key(a) < key(b); });
+  auto arrange = [&](auto& column) {
+    if (column.empty()) return;
+    const auto before = column;
+    for (size_t i = 0; i < order.size(); ++i)
+      column[i] = before[order[i]];
+  };
+  arrange(cloud.position);
+  arrange(cloud.normal);
+  arrange(cloud.area);
+  arrange(cloud.irradiance);
+  arrange(cloud.albedo);
+  for (Channel& c : cloud.channels)
+    arrange(c.values);
 }
 
 slvm::Result<PointCloud> parse_point_cloud(std::span<const std::byte> bytes, const std::string& name) {

@@ -40,6 +40,12 @@ struct PointCloud {
 /// areas that are negative or not finite, irradiance, albedo, normals or channels that are not finite.
 std::string check(const PointCloud& cloud);
 
+/// The points of `from` behind those of `to`, which has the same columns, channels in the same order; or
+/// none.
+void append(PointCloud& to, const PointCloud& from);
+/// Orders points by place, normal and area, whatever order they came in.
+void sort_points(PointCloud& cloud);
+
 /// In a PLY file the element "vertex" has the properties x y z; nx ny nz; area; irradiance_r irradiance_g
 /// irradiance_b; albedo_r albedo_g albedo_b; all others that are no lists are channels. Without albedo_* the
 /// colours red green blue, which scanners and painters write, serve as albedo (bytes: divided by 255). Fails

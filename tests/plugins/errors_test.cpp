@@ -86,7 +86,7 @@ TEST_F(PluginErrors, TablesOfOtherHeaders) {
   EXPECT_TRUE(version.compile("surface s() { Ci = whatever(1); }").empty());
   EXPECT_THAT(version.diagnostics,
               HasSubstr("other_version.so: it was compiled with version 77 of RslPlugin.h, this program "
-                        "wants version 1: compile it again"));
+                        "wants version 2: compile it again"));
 }
 
 TEST_F(PluginErrors, LibrariesThatLackFunctionsOfOthers) {

@@ -84,11 +84,11 @@ class Solid:
         self.parts.append((distance, blend, -1))
         self.widest = max(self.widest, blend)
 
-    def near(self, x, y, z, reach):
-        """The parts that matter for the surface within reach of a point."""
+    def near(self, x, y, z, reach, parts=None):
+        """Those of the parts (all of them) that matter for the surface within reach of a point."""
         # First order distances may be too large a little.
         bound = 2.5 * reach + self.widest
-        return [part for part in self.parts if part[0](x, y, z) < bound]
+        return [part for part in (self.parts if parts is None else parts) if part[0](x, y, z) < bound]
 
 
 def distance_of(parts, x, y, z):
@@ -103,22 +103,30 @@ def distance_of(parts, x, y, z):
 
 def surface(solid, xs, ys, zs, block=6):
     """The surface in a box as quadrilaterals, one vertex to each cell that it passes (surface nets, Gibson 1998). xs, ys, zs are the
-    planes of the cells, ascending and of any spacing; xs symmetric about 0."""
+    planes of the cells, ascending and of any spacing; xs symmetric about 0. Cells are looked at in blocks of blocks: most are far off."""
     values = {}
+    last = len(xs) - 1
 
-    def block_values(i0, j0, k0):
-        i1, j1, k1 = min(i0 + block, len(xs) - 1), min(j0 + block, len(ys) - 1), min(k0 + block, len(zs) - 1)
-        low, high = (xs[i0], ys[j0], zs[k0]), (xs[i1], ys[j1], zs[k1])
-        middle, reach = scaled(add(low, high), 0.5), 0.5 * math.dist(low, high)
-        parts = solid.near(abs(middle[0]), middle[1], middle[2], reach)
-        if not parts or abs(distance_of(parts, abs(middle[0]), middle[1], middle[2])) > 2 * reach:
-            return None
-        for i in range(i0, i1 + 1):
-            for j in range(j0, j1 + 1):
-                for k in range(k0, k1 + 1):
+    def look(begin, size, parts):
+        """Finds the distances at the corners of a block of cells, if the surface may pass it."""
+        end = [min(b + size, len(planes) - 1) for b, planes in zip(begin, (xs, ys, zs))]
+        low, high = [(xs[i], ys[j], zs[k]) for i, j, k in (begin, end)]
+        (x, y, z), reach = scaled(add(low, high), 0.5), 0.5 * math.dist(low, high)
+        x = abs(x)
+        parts = solid.near(x, y, z, reach, parts)
+        if not parts or abs(distance_of(parts, x, y, z)) > 2 * reach:
+            return False
+        if size > 3:
+            half = size // 2
+            inner = [range(b, e, half) for b, e in zip(begin, end)]
+            return any([look((i, j, k), half, parts) for i in inner[0] for j in inner[1] for k in inner[2]])
+        for i in range(begin[0], end[0] + 1):
+            for j in range(begin[1], end[1] + 1):
+                for k in range(begin[2], end[2] + 1):
                     if (i, j, k) not in values:
-                        values[i, j, k] = distance_of(parts, abs(xs[i]), ys[j], zs[k])
-        return range(i0, i1), range(j0, j1), range(k0, k1)
+                        mirrored = values.get((last - i, j, k))
+                        values[i, j, k] = distance_of(parts, abs(xs[i]), ys[j], zs[k]) if mirrored is None else mirrored
+        return True
 
     mesh, vertex = Mesh(), {}
     corners = [(a, b, c) for a in (0, 1) for b in (0, 1) for c in (0, 1)]
@@ -126,14 +134,13 @@ def surface(solid, xs, ys, zs, block=6):
     for i0 in range(0, len(xs) - 1, block):
         for j0 in range(0, len(ys) - 1, block):
             for k0 in range(0, len(zs) - 1, block):
-                ranges = block_values(i0, j0, k0)
-                if not ranges:
+                if not look((i0, j0, k0), block, None):
                     continue
-                for i in ranges[0]:
-                    for j in ranges[1]:
-                        for k in ranges[2]:
-                            at = [values[i + a, j + b, k + c] for a, b, c in corners]
-                            if min(at) < 0 <= max(at):
+                for i in range(i0, min(i0 + block, len(xs) - 1)):
+                    for j in range(j0, min(j0 + block, len(ys) - 1)):
+                        for k in range(k0, min(k0 + block, len(zs) - 1)):
+                            at = [values.get((i + a, j + b, k + c)) for a, b, c in corners]
+                            if None not in at and min(at) < 0 <= max(at):
                                 vertex[i, j, k] = mesh.point(crossing_mean(at, edges, corners, (xs, ys, zs), (i, j, k)))
     for (i, j, k) in list(vertex):
         for axis in range(3):

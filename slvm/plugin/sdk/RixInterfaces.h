@@ -24,6 +24,8 @@ enum RixInterfaceId {
 class RixInterface {
 public:
   virtual ~RixInterface() {}
+  /// Of the interface's functions; 1 so far.
+  virtual int GetVersion() const { return 1; }
 };
 
 class RixContext {
@@ -72,7 +74,7 @@ public:
 
 class RixThreadUtils : public RixInterface {
 public:
-  virtual RixMutex* NewMutex() = 0;
+  virtual RixMutex* NewMutex() const = 0;
 };
 
 /// Where a reporter writes.

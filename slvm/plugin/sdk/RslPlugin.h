@@ -23,7 +23,7 @@
 
 #define RSL_PLUGIN_VERSION 6
 /// Of the binary interface between this header and the programs that open plug-ins.
-#define ANEMONE_RSLPLUGIN_INTERFACE 1
+#define ANEMONE_RSLPLUGIN_INTERFACE 2
 
 #define RSLEXPORT __attribute__((visibility("default")))
 #ifndef PRMANEXPORT

@@ -4,12 +4,14 @@
 //
 // RxAttribute, RxOption, RxRendererInfo: 0 when found, with its type and number of items; -1 when there is
 // none of the name, or the bytes needed when `length` of them are not enough. Strings are given as addresses
-// (char*) of texts that live as long as the renderer.
+// (char*) of texts that live as long as the renderer; what a scene declares as int as ints.
 #pragma once
 
 #include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
+#include <sys/random.h>
+#include <sys/types.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -46,6 +48,18 @@ typedef struct AnemoneLookup {
   float* result; /* the channels of each point side by side */
 } AnemoneLookup;
 
+/// A point to be written to a file of points, or looked up in one. N and the point are in "current" space.
+typedef struct AnemoneCloudPoint {
+  const char* function; /* that asks: for messages */
+  int write;
+  const char* file;
+  const float *point, *normal;
+  float radius;
+  int tokens;
+  char** token;
+  void** value;
+} AnemoneCloudPoint;
+
 /// The renderer's side. `call` is the one under way; null outside of calls.
 typedef struct AnemonePluginServices {
   int version;
@@ -65,8 +79,15 @@ typedef struct AnemonePluginServices {
                       RxInfoType_t* type, int* count);
   /// Of the statement under way: the line of the shader and, as a text that lives on, its file. 0: done.
   int (*place)(void* call, int* line, const char** file);
+  /// 0: done; -1: not (there is a message, unless there was nothing near the point).
+  int (*cloud_point)(void* call, const AnemoneCloudPoint* point);
+  /// All of a level of a map: channels of a texel together, rows from the top. 0: done.
+  int (*texels)(void* call, const char* map, int channels, const int* channel, int level, int face,
+                float* result);
+  /// A message about a function that this program does not have; -1.
+  int (*missing)(void* call, const char* function, const char* advice);
 } AnemonePluginServices;
-#define ANEMONE_PLUGIN_SERVICES 3
+#define ANEMONE_PLUGIN_SERVICES 4
 
 #define ANEMONE_SHARED __attribute__((weak, visibility("default")))
 #define ANEMONE_INLINE static __inline__ __attribute__((unused))
@@ -138,15 +159,19 @@ ANEMONE_INLINE int anemone_look_up(AnemoneLookup* lookup, int n, char* tokens[],
   lookup->value = values;
   return anemone_services ? anemone_services->lookup(anemone_call, lookup) : -1;
 }
-ANEMONE_INLINE int anemone_look_up_list(AnemoneLookup* lookup, va_list list) {
-  char* tokens[ANEMONE_MOST_TOKENS];
-  void* values[ANEMONE_MOST_TOKENS];
+ANEMONE_INLINE int anemone_take_tokens(va_list list, char* tokens[], void* values[]) {
   int n = 0;
   char* token;
   while (n < ANEMONE_MOST_TOKENS && (token = va_arg(list, char*)) != NULL) {
     tokens[n] = token;
     values[n++] = va_arg(list, void*);
   }
+  return n;
+}
+ANEMONE_INLINE int anemone_look_up_list(AnemoneLookup* lookup, va_list list) {
+  char* tokens[ANEMONE_MOST_TOKENS];
+  void* values[ANEMONE_MOST_TOKENS];
+  const int n = anemone_take_tokens(list, tokens, values);
   return anemone_look_up(lookup, n, tokens, values);
 }
 ANEMONE_INLINE void anemone_set_lookup(AnemoneLookup* lookup, const char* function, int kind, const char* map,
@@ -340,6 +365,116 @@ ANEMONE_INLINE int RxTextureInfo(const char* map, const char* name, void* result
   return anemone_services
              ? anemone_services->texture_info(anemone_call, map, name, result, length, type, count)
              : -1;
+}
+
+/// Whole maps. nchannels channels, those whose numbers are in `channels`, of each texel side by side, rows
+/// from the top, as floats (of maps of bytes or shorts 0 to 1). Level 0 is as large as RxTextureInfo() says
+/// under "resolution"; each other one half as large, down to a texel. Maps have one face, number 0.
+ANEMONE_INLINE int RxTextureGetData(const char* map, int nchannels, int* channels, int level, int face,
+                                    void* result) {
+  return anemone_services
+             ? anemone_services->texels(anemone_call, map, nchannels, channels, level, face, (float*)result)
+             : -1;
+}
+
+/// Shadows of lights that have a size, from maps that hold more than one depth of a pixel: there are none
+/// here. A message says so, and what to do; the result is 0, no shadow.
+ANEMONE_INLINE int RxSourceShadowV(const char* map, int firstchannel, const float* P0, const float* P1,
+                                   const float* P2, const float* P3, const float* source0,
+                                   const float* source1, const float* source2, const float* source3,
+                                   float* result, int n, char* tokens[], void* values[]) {
+  (void)map, (void)firstchannel, (void)P0, (void)P1, (void)P2, (void)P3, (void)n, (void)tokens, (void)values;
+  (void)source0, (void)source1, (void)source2, (void)source3;
+  *result = 0;
+  return anemone_services
+             ? anemone_services->missing(anemone_call, "RxSourceShadow",
+                                         "shadow maps have one depth a pixel; RxShadow with a \"blur\" as "
+                                         "wide as the light softens their edges")
+             : -1;
+}
+ANEMONE_INLINE int RxSourceShadow(const char* map, int firstchannel, const float* P0, const float* P1,
+                                  const float* P2, const float* P3, const float* source0,
+                                  const float* source1, const float* source2, const float* source3,
+                                  float* result, ...) {
+  return RxSourceShadowV(map, firstchannel, P0, P1, P2, P3, source0, source1, source2, source3, result, 0,
+                         NULL, NULL);
+}
+
+ANEMONE_INLINE int anemone_cloud_point(const char* function, int write, const char* file, const float* point,
+                                       const float* normal, float radius, int n, char* tokens[],
+                                       void* values[]) {
+  AnemoneCloudPoint p;
+  p.function = function;
+  p.write = write;
+  p.file = file;
+  p.point = point;
+  p.normal = normal;
+  p.radius = radius;
+  p.tokens = n;
+  p.token = tokens;
+  p.value = values;
+  return anemone_services ? anemone_services->cloud_point(anemone_call, &p) : -1;
+}
+
+// Files of points (PLY), with values of their own: pairs of a token with its type ("float heat", "color
+// tint"; also vector, normal, point) and the address of the value, ended by RI_NULL, or n of them.
+// "coordsystem" (a char*) is the space of the points, "world" when nothing is said; point, normal and radius
+// are in "current" space.
+//
+// RxTexture3d: the means of the points within the filter radius of `point` that do not face away from
+// `normal`; with a radius of 0 of the four nearest ones. 0: found; -1: there is nothing, and values stay as
+// they are. Nothing that this frame writes is seen before the next.
+ANEMONE_INLINE int RxTexture3dV(const char* file, const float* point, const float* normal, float filterradius,
+                                int n, char* tokens[], void* values[]) {
+  return anemone_cloud_point("RxTexture3d", 0, file, point, normal, filterradius, n, tokens, values);
+}
+ANEMONE_INLINE int RxTexture3d(const char* file, const float* point, const float* normal, float filterradius,
+                               ...) {
+  char* tokens[ANEMONE_MOST_TOKENS];
+  void* values[ANEMONE_MOST_TOKENS];
+  va_list list;
+  int n;
+  va_start(list, filterradius);
+  n = anemone_take_tokens(list, tokens, values);
+  va_end(list);
+  return RxTexture3dV(file, point, normal, filterradius, n, tokens, values);
+}
+/// Adds a point, a disc of this radius, to a file, which is written when the frame ends. All points of a file
+/// have the same values.
+ANEMONE_INLINE int RxBake3dV(const char* file, const float* point, const float* normal, float radius, int n,
+                             char* tokens[], void* values[]) {
+  return anemone_cloud_point("RxBake3d", 1, file, point, normal, radius, n, tokens, values);
+}
+ANEMONE_INLINE int RxBake3d(const char* file, const float* point, const float* normal, float radius, ...) {
+  char* tokens[ANEMONE_MOST_TOKENS];
+  void* values[ANEMONE_MOST_TOKENS];
+  va_list list;
+  int n;
+  va_start(list, radius);
+  n = anemone_take_tokens(list, tokens, values);
+  va_end(list);
+  return RxBake3dV(file, point, normal, radius, n, tokens, values);
+}
+
+/// A text that no other call has given, anywhere: a UUID (RFC 9562, version 4) in 36 characters. `text` has
+/// room for 64. Needs no call that is under way.
+ANEMONE_INLINE void RxUUIDCreateString(char* text) {
+  static const char* digits = "0123456789abcdef";
+  unsigned char bytes[16];
+  size_t i;
+  char* to = text;
+  for (i = 0; i < sizeof bytes;) {
+    ssize_t got = getrandom(bytes + i, sizeof bytes - i, 0);
+    if (got > 0) i += (size_t)got;
+  }
+  bytes[6] = (unsigned char)((bytes[6] & 0x0f) | 0x40);
+  bytes[8] = (unsigned char)((bytes[8] & 0x3f) | 0x80);
+  for (i = 0; i < sizeof bytes; ++i) {
+    if (i == 4 || i == 6 || i == 8 || i == 10) *to++ = '-';
+    *to++ = digits[bytes[i] >> 4];
+    *to++ = digits[bytes[i] & 15];
+  }
+  *to = 0;
 }
 
 /// Where the renderer is: a shader is no RIB file, so that it is the line and the file of the shader that

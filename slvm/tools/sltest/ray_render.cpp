@@ -6,6 +6,7 @@
 #include "render/state/search_path.h"
 #include "render/texture/texture_maps.h"
 #include "slvm/tools/sltest/ray_scene.h"
+#include "stdlib/scattering/baked_clouds.h"
 #include "stdlib/scattering/cloud_lookups.h"
 
 namespace slvm::sltest {
@@ -89,11 +90,12 @@ public:
     settings.folders = scene_.options.search_paths["texture"];
     textures_ = std::make_unique<render::TextureMaps>(settings);
     bound_ = std::make_unique<render::BoundShaders>(scene_, *request.machine, cache_, diagnostics);
-    lookups_ =
-        std::make_unique<subsurface::CloudLookups>(clouds_, [path = settings.folders](std::string_view name) {
-          return render::find_file(name, path).value_or(std::string(name));
-        });
-    services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, *lookups_,
+    auto find = [path = settings.folders](std::string_view name) {
+      return render::find_file(name, path).value_or(std::string(name));
+    };
+    lookups_ = std::make_unique<subsurface::CloudLookups>(clouds_, find);
+    files_ = std::make_unique<subsurface::ReadClouds>(find);
+    services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, *lookups_, *files_,
                                                         [](std::string_view) {});
     tracer_ = std::make_unique<render::RayTracer>(scene_, *request.machine, *bound_, *services_);
     tracer_->set_default_attributes(own);
@@ -114,6 +116,7 @@ private:
   std::unique_ptr<render::BoundShaders> bound_;
   subsurface::CloudCache clouds_;
   std::unique_ptr<subsurface::CloudLookups> lookups_;
+  std::unique_ptr<subsurface::ReadClouds> files_;
   std::unique_ptr<render::SceneServices> services_;
   std::unique_ptr<render::RayTracer> tracer_;
   std::string problem_;

@@ -103,14 +103,21 @@ bool MemoryServices::renderer_info(const ShadingState&, std::string_view name, V
   return true;
 }
 
-Clouds::Clouds(std::vector<std::string> path)
-    : lookups(cache, [folders = std::move(path)](std::string_view name) {
-        namespace fs = std::filesystem;
-        std::error_code ec;
-        for (const std::string& folder : folders)
-          if (fs::path file = fs::path(folder) / name; fs::is_regular_file(file, ec)) return file.string();
-        return std::string(name);
-      }) {}
+namespace {
+
+auto finder(std::vector<std::string> path) {
+  return [folders = std::move(path)](std::string_view name) {
+    namespace fs = std::filesystem;
+    std::error_code ec;
+    for (const std::string& folder : folders)
+      if (fs::path file = fs::path(folder) / name; fs::is_regular_file(file, ec)) return file.string();
+    return std::string(name);
+  };
+}
+
+} // namespace
+
+Clouds::Clouds(std::vector<std::string> path) : files(finder(path)), lookups(cache, finder(path)) {}
 
 TextureServices* MemoryServices::textures() {
   constexpr float kBias = 0.01f;

@@ -9,6 +9,7 @@
 
 #include "slvm/machine.h"
 #include "slvm/tools/sltest/ray_scene.h"
+#include "stdlib/scattering/baked_clouds.h"
 #include "stdlib/scattering/cloud_lookups.h"
 
 #include <map>
@@ -33,10 +34,11 @@ private:
   std::unique_ptr<TextureServices> textures_;
 };
 
-/// Clouds of points for subsurface(), of one case.
+/// Clouds of points for subsurface() and plug-ins, of one case.
 struct Clouds {
   explicit Clouds(std::vector<std::string> path);
 
+  subsurface::ReadClouds files;
   subsurface::CloudCache cache;
   subsurface::CloudLookups lookups;
 };
@@ -65,6 +67,7 @@ public:
   TextureServices* textures() override;
   RayServices* rays() override { return ray_scene_ ? &ray_scene_->rays() : nullptr; }
   SubsurfaceServices* subsurface() override { return scene_.clouds ? &scene_.clouds->lookups : nullptr; }
+  PointCloudServices* point_clouds() override { return scene_.clouds ? &scene_.clouds->files : nullptr; }
 
   const std::string& printed() const { return printed_; }
   void forget_printed() { printed_.clear(); }

@@ -23,7 +23,8 @@ RayScene::RayScene(const std::string& rib, std::map<std::string, std::string> sh
   settings.folders = std::move(texture_folders);
   textures_ = std::make_unique<TextureMaps>(settings);
   bound_ = std::make_unique<BoundShaders>(scene_, machine_, cache_, diagnostics);
-  services_ = std::make_unique<SceneServices>(scene_, *bound_, *textures_, lookups_, [](std::string_view) {});
+  services_ = std::make_unique<SceneServices>(scene_, *bound_, *textures_, lookups_, points_,
+                                              [](std::string_view) {});
   tracer_ = std::make_unique<RayTracer>(scene_, machine_, *bound_, *services_);
   services_->set_rays(tracer_.get());
   messages_ = format_diagnostics(diagnostics, sources);

@@ -4,6 +4,7 @@
 #include "render/rays/ray_tracer.h"
 #include "render/shading/services.h"
 #include "render/texture/texture_maps.h"
+#include "stdlib/scattering/baked_clouds.h"
 #include "stdlib/scattering/cloud_lookups.h"
 
 #include <functional>
@@ -72,6 +73,7 @@ private:
   std::unique_ptr<TextureMaps> textures_;
   subsurface::CloudCache clouds_;
   subsurface::CloudLookups lookups_{clouds_, [](std::string_view name) { return std::string(name); }};
+  subsurface::BakedClouds points_;
   std::unique_ptr<BoundShaders> bound_;
   std::unique_ptr<SceneServices> services_;
   std::unique_ptr<RayTracer> tracer_;

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 namespace {
 
 using ::testing::HasSubstr;
@@ -130,9 +132,9 @@ surface bymap(uniform string map = "", normals = "", inner = "", outer = ""; uni
   color c = 0;
   illuminance(P, Nn, PI) {
     if (diffusion == 0)
-      c += Cl * pastothers(outer, P) * singlescatteringbymap(P, Nn, In, L, .2, 1.8, .6, 1.4, 16, map, normals, inner, .05);
+      c += Cl * pastothers(outer, P) * singlescatteringbymap(P, Nn, In, L, .2, 1.8, .6, 1.4, 16, map, normals, inner, .05, 0);
     else
-      c += Cl * pastothers(outer, P) * diffusionscatteringbymap(P, L, color (.8, .5, .5), color (.2, .2, .1), 1.3, 64, map, inner, .05);
+      c += Cl * pastothers(outer, P) * diffusionscatteringbymap(P, L, color (.8, .5, .5), color (.2, .2, .1), 1.3, 64, map, inner, .05, 0);
   }
   Oi = 1;
   Ci = c;
@@ -195,6 +197,42 @@ TEST_F(SubsurfaceByMaps, BlockersInside) {
     EXPECT_GT(mean("free.tif"), 0.005);
     EXPECT_EQ(pixels("below.tif"), pixels("free.tif"));
   }
+}
+
+// Lights that are no points: the edge of what a map shows is as wide as the lookups are spread. Of a disc
+// whose middle is half its radius beyond the edge a circular segment is on this side.
+TEST_F(SubsurfaceByMaps, JitteredLookupsHaveSoftEdges) {
+  file("edge.sl", "#include \"subsurface.h\"\n"
+                  R"(
+surface edge(uniform string map = ""; uniform float x = 0, blur = 0;) {
+  point p = transform("world", "current", point (x, 0, 5)), Pi = 0;
+  float found = 0;
+  uniform float i;
+  for (i = 0; i < 100; i += 1)
+    found += entrybymap(map, p, besideinmap(blur), Pi);
+  Oi = 1;
+  Ci = found / 100;
+}
+)");
+  const std::string half = "FrameBegin 1\nFormat 256 256 1\nPixelSamples 1 1\nPixelFilter \"box\" 1 1\n"
+                           "Hider \"hidden\" \"int jitter\" 0\nDisplay \"h.tif\" \"zfile\" \"z\"\n" +
+                           std::string(kStraight) +
+                           "\nTranslate 0 0 80\nWorldBegin\nSurface \"constant\"\n"
+                           "Polygon \"P\" [-10 -10 0 -10 10 0 0 10 0 0 -10 0]\nWorldEnd\nFrameEnd\n";
+  render(half);
+  auto found = [&](double x, double blur) {
+    render(
+        frame(1, "edge.tif", 0.3, 16,
+              fmt::format("Surface \"edge\" \"map\" \"h.tif\" \"x\" {} \"blur\" {}\n{}", x, blur, kPlate)));
+    return mean("edge.tif");
+  };
+  EXPECT_EQ(found(-0.1, 0), 1);
+  EXPECT_EQ(found(0.1, 0), 0);
+  EXPECT_NEAR(found(0, 0.1), 0.5, 0.02);
+  const double segment = (std::acos(0.5) - 0.5 * std::sqrt(0.75)) / 3.14159265358979; // 0.1955
+  EXPECT_NEAR(found(3 * 0.025, 0.1), segment, 0.015);                                 // the map is 3 wide
+  EXPECT_NEAR(found(-3 * 0.025, 0.1), 1 - segment, 0.015);
+  EXPECT_EQ(found(3 * 0.06, 0.1), 0);
 }
 
 // A surface that calls the built-in function, and one that calls the plug-in's.

@@ -62,10 +62,54 @@ Probes probes(const PointCloud& cloud, size_t count) {
 }
 
 TEST(DipoleBlock, ExpIsAccurate) {
-  for (float x = 0; x < 87; x += 0.0137f)
-    ASSERT_NEAR(static_cast<double>(exp_minus(x)) / std::exp(-static_cast<double>(x)), 1, 2e-7) << x;
-  EXPECT_LT(exp_minus(1000), 1e-37f);
-  EXPECT_LT(exp_minus(HUGE_VALF), 1e-37f);
+  float x[kBlock], result[kBlock];
+  for (float first = 0; first < 86; first += 0.137f) {
+    for (size_t i = 0; i < kBlock; ++i)
+      x[i] = first + 0.0137f * static_cast<float>(i);
+    exp_minus(x, result);
+    for (size_t i = 0; i < kBlock; ++i)
+      ASSERT_NEAR(static_cast<double>(result[i]) / std::exp(-static_cast<double>(x[i])), 1, 2e-7) << x[i];
+  }
+  x[0] = 1000, x[1] = HUGE_VALF;
+  exp_minus(x, result);
+  EXPECT_LT(result[0], 1e-37f);
+  EXPECT_LT(result[1], 1e-37f);
+}
+
+// Places that are looked up together go through the tree together: what each of them gets does not depend on
+// the company.
+TEST(DiffusionTree, PlacesLookedUpTogetherGetWhatTheyGetAlone) {
+  const PointCloud cloud = ball(4000, 8);
+  const auto tree = DiffusionTree::build(cloud);
+  ASSERT_TRUE(tree);
+  const DiffusionMaterial material(kMarble);
+  std::vector<Vec3> x = probes(cloud, 37).x; // two rounds and a rest
+  x.push_back({0, 0, 30});                   // far from all others
+  for (int way = 0; way < 4; ++way) {
+    LookupOptions options;
+    options.epsilon = 0.2f;
+    if (way == 1) options.smooth = true;
+    if (way == 2) options.shell = {2, 9, 0.2f};
+    std::vector<Vec3> normals;
+    if (way == 3) {
+      options.follow_topology = 1;
+      for (Vec3 p : x)
+        normals.push_back(normalize(p));
+      options.normals = normals;
+    }
+    std::vector<Color> together(x.size());
+    LookupCount count, alone_count;
+    tree->exitance(material, x, options, together, &count);
+    for (size_t i = 0; i < x.size(); ++i) {
+      Color alone;
+      if (way == 3) options.normals = std::span(normals).subspan(i, 1);
+      tree->exitance(material, std::span(x).subspan(i, 1), options, std::span(&alone, 1), &alone_count);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(together[i][c], alone[c], 2e-6f * alone[c]) << way << ' ' << i;
+    }
+    EXPECT_EQ(count.groups, alone_count.groups);
+    EXPECT_EQ(count.samples, alone_count.samples);
+  }
 }
 
 TEST(DiffusionTree, WithoutGroupsItIsTheSum) {
@@ -191,18 +235,22 @@ TEST(DiffusionTree, ColoursOfTheSamplesChooseTheDipole) {
   }
 }
 
-TEST(DiffusionTree, SameResultInAnyNumberOfThreadsAndBatches) {
+TEST(DiffusionTree, SameResultInAnyNumberOfThreads) {
   const PointCloud cloud = ball(5000, 10);
   const auto tree = DiffusionTree::build(cloud);
   ASSERT_TRUE(tree);
   const DiffusionMaterial material(kMarble);
-  std::vector<Color> batch(cloud.size()), threaded(cloud.size());
-  tree->exitance(material, cloud.position, {}, batch);
-  parallel_ranges(cloud.size(), 8, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i)
-      threaded[i] = tree->exitance(material, cloud.position[i]);
-  });
-  EXPECT_EQ(batch, threaded);
+  // A lookup of 50 places, as a grid has them, is one thread's.
+  auto looked_up = [&](unsigned threads) {
+    std::vector<Color> out(cloud.size());
+    const std::span<const Vec3> places = cloud.position;
+    parallel_ranges(cloud.size() / 50, threads, [&](size_t begin, size_t end) {
+      for (size_t grid = begin; grid < end; ++grid)
+        tree->exitance(material, places.subspan(50 * grid, 50), {}, std::span(out).subspan(50 * grid, 50));
+    });
+    return out;
+  };
+  EXPECT_EQ(looked_up(1), looked_up(8));
 }
 
 TEST(DiffusionTree, OnlyWhatIsInTheShell) {
