@@ -8,7 +8,8 @@ import re
 
 import tree
 
-SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/renderer_services"]
+SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/irradiance_cache",
+            "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -22,7 +23,9 @@ ALLOWED = {
     "slvm/textures": ["slvm/support", "slvm/value"],
     "slvm/rays": ["slvm/format"],
     "slvm/subsurface": [],
-    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/format", "slvm/support", "slvm/value"],
+    "slvm/irradiance_cache": [],
+    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface",
+                               "slvm/irradiance_cache", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
     "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
     "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",
@@ -37,7 +40,7 @@ ALLOWED = {
     "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
-    "render": ["public", "stdlib/scattering", "render/hider/quad_hits", "render/hider/window_weights"],
+    "render": ["public", "stdlib/scattering", "stdlib/subsurface/octree", "stdlib/subsurface/vec3", "render/hider/quad_hits", "render/hider/window_weights"],
     # Compiled once for each SIMD target.
     "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
     "render/hider/window_weights": ["render", "public", "slvm/wide/targets"],

@@ -1,6 +1,7 @@
 // The steps of a frame, from scene to files.
 #include "render/renderer.h"
 
+#include "render/caches/cache_files.h"
 #include "render/display/output.h"
 #include "render/display/preview.h"
 #include "render/hider/frame.h"
@@ -41,6 +42,7 @@ struct Renderer::Impl {
 
   void render(Scene& scene);
   void report_runtime_messages();
+  void report_pixels(const FrameSettings& s, const FrameReport& report);
   void report_replaced(TextureMaps& textures);
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
@@ -81,6 +83,15 @@ TextureMaps::Settings texture_settings(const Options& options) {
   return s;
 }
 
+/// Turns the name of a file that is read into a path; the options must live as long.
+std::function<std::string(std::string_view)> texture_finder(const Options& options) {
+  return [&options](std::string_view name) {
+    const auto folders = options.search_paths.find("texture");
+    if (folders == options.search_paths.end()) return std::string(name);
+    return find_file(name, folders->second).value_or(std::string(name));
+  };
+}
+
 /// For a frame; the options must live as long.
 subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Options& options) {
   subsurface::CloudCache::Settings s;
@@ -88,11 +99,7 @@ subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Opt
   if (auto it = options.named.find("subsurface:treefolder"); it != options.named.end())
     s.folder = it->second.strings[0];
   clouds.configure(std::move(s));
-  return subsurface::CloudLookups(clouds, [&options](std::string_view name) {
-    const auto folders = options.search_paths.find("texture");
-    if (folders == options.search_paths.end()) return std::string(name);
-    return find_file(name, folders->second).value_or(std::string(name));
-  });
+  return subsurface::CloudLookups(clouds, texture_finder(options));
 }
 
 } // namespace
@@ -119,6 +126,9 @@ void Renderer::Impl::render(Scene& frame) {
   SceneServices services(frame, shaders, textures, lookups, settings.print);
   RayTracer rays(frame, machine, shaders, services);
   services.set_rays(&rays);
+  CacheFiles caches(texture_finder(frame.options));
+  services.set_irradiance_caches(&caches);
+  rays.set_cache_files(&caches);
   VmShading shading(machine, shaders, services);
   s.make_content = [&](const Procedural& p, float area) {
     SceneContent content = interpreter.make_content(p, area);
@@ -143,19 +153,12 @@ void Renderer::Impl::render(Scene& frame) {
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
   report_replaced(textures);
-  for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
-    if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
-      diagnostics.warning(
-          {}, "display",
-          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0", s.aovs[a].name));
-  if (report.bad_colours > 0)
-    diagnostics.warning({}, "nan",
-                        fmt::format("{} shading points have a colour that is not a finite number; "
-                                    "they are drawn black",
-                                    report.bad_colours));
+  report_pixels(s, report);
   started = Clock::now();
   for (std::string& name : write_displays(frame, image, s.aovs, diagnostics))
     written.push_back(std::move(name));
+  for (const std::string& problem : caches.write())
+    diagnostics.error({}, problem);
   statistics.write_seconds = seconds_since(started);
   if (settings.statistics) {
     const Options& o = frame.options;
@@ -226,6 +229,20 @@ void Renderer::Impl::report_runtime_messages() {
     else
       diagnostics.warning({}, "runtime", text);
   }
+}
+
+/// What cannot be right in the picture.
+void Renderer::Impl::report_pixels(const FrameSettings& s, const FrameReport& report) {
+  for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
+    if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
+      diagnostics.warning(
+          {}, "display",
+          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0", s.aovs[a].name));
+  if (report.bad_colours > 0)
+    diagnostics.warning({}, "nan",
+                        fmt::format("{} shading points have a colour that is not a finite number; "
+                                    "they are drawn black",
+                                    report.bad_colours));
 }
 
 void Renderer::Impl::report_replaced(TextureMaps& textures) {

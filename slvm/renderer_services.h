@@ -7,6 +7,7 @@
 #pragma once
 
 #include "slvm/grid.h"
+#include "slvm/irradiance_cache.h"
 #include "slvm/rays.h"
 #include "slvm/subsurface.h"
 #include "slvm/textures.h"
@@ -75,6 +76,9 @@ public:
   /// Who looks up clouds of lit points; null: nobody, and nothing comes from below surfaces, with a run-time
   /// message.
   virtual SubsurfaceServices* subsurface() { return nullptr; }
+
+  /// Who keeps irradiance caches; null: nobody, and irradiancecache() finds nothing, with a run-time message.
+  virtual IrradianceCacheServices* irradiance_caches() { return nullptr; }
 
   /// Text of printf, in order within one grid, as it is printed. Warnings and errors of running shaders go
   /// another way: MachineOptions::on_message.

@@ -44,6 +44,7 @@ public:
   slvm::TextureServices* textures() override { return all_.textures(); }
   slvm::RayServices* rays() override { return &nothing_; }
   slvm::SubsurfaceServices* subsurface() override { return all_.subsurface(); }
+  slvm::IrradianceCacheServices* irradiance_caches() override { return all_.irradiance_caches(); }
   void print(const slvm::ShadingState& s, std::string_view text) override { all_.print(s, text); }
 
 private:

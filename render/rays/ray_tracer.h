@@ -10,6 +10,7 @@
 
 namespace render {
 
+class CacheFiles;
 class HemisphereCache;
 class HemisphereRecords;
 
@@ -22,6 +23,9 @@ public:
 
   /// What grids that are of no primitive of the scene shoot with.
   void set_default_attributes(const RayAttributes& a) { default_attributes_ = a; }
+
+  /// Files that occlusion() and indirectdiffuse() read and write; null: none. They must outlive this.
+  void set_cache_files(CacheFiles* files) { cache_files_ = files; }
 
   void trace(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,
              std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors) override;
@@ -57,6 +61,7 @@ private:
   slvm::RendererServices& services_;
   Camera camera_;
   HitShader hits_;
+  CacheFiles* cache_files_ = nullptr;
   RayAttributes default_attributes_;
   float min_weight_ = 0, max_depth_ = 10;
   RayGeometrySettings geometry_settings_;

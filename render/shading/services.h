@@ -34,6 +34,9 @@ public:
   slvm::TextureServices* textures() override { return &textures_; }
   slvm::RayServices* rays() override { return rays_; }
   slvm::SubsurfaceServices* subsurface() override { return &subsurface_; }
+  slvm::IrradianceCacheServices* irradiance_caches() override { return caches_; }
+  /// Who keeps irradiance caches; null: nobody.
+  void set_irradiance_caches(slvm::IrradianceCacheServices* caches) { caches_ = caches; }
   /// Who traces rays, which asks these services in turn.
   void set_rays(slvm::RayServices* rays) { rays_ = rays; }
 
@@ -48,6 +51,7 @@ private:
   slvm::TextureServices& textures_;
   slvm::SubsurfaceServices& subsurface_;
   slvm::RayServices* rays_ = nullptr;
+  slvm::IrradianceCacheServices* caches_ = nullptr;
   std::function<void(std::string_view)> print_;
   std::mutex print_mutex_;
   mutable std::shared_mutex spaces_mutex_;

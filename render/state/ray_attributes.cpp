@@ -78,6 +78,26 @@ std::optional<std::string> set_shade(RayAttributes& a, std::string_view name, co
   return {};
 }
 
+/// By CacheMode.
+constexpr std::string_view kCacheModes[] = {"", "r", "w", "rw", "R"};
+
+std::optional<std::string> set_irradiance(RayAttributes& a, std::string_view name, const slvm::Value& value) {
+  if (name == "maxerror") return set_number(a.max_error, value);
+  if (name == "maxpixeldist") return set_number(a.max_pixel_distance, value);
+  if (name == "handle") {
+    if (value.strings.size() != 1) return "takes one string";
+    a.irradiance_file = value.strings[0];
+    return "";
+  }
+  if (name != "filemode") return {};
+  for (size_t i = 0; i < std::size(kCacheModes) && value.strings.size() == 1; ++i)
+    if (value.strings[0] == kCacheModes[i]) {
+      a.irradiance_mode = static_cast<CacheMode>(i);
+      return "";
+    }
+  return "is \"\", \"r\", \"w\", \"rw\" or \"R\"";
+}
+
 /// "a b" replaces the groups; "+a" joins one, "-a" leaves one.
 std::string set_groups(std::string& groups, const slvm::Value& value) {
   if (value.strings.size() != 1) return "takes one string";
@@ -119,6 +139,8 @@ std::optional<slvm::Value> ray_attribute_value(const RayAttributes& a, std::stri
   if (name == "trace:samplemotion") return number(a.sample_motion);
   if (name == "irradiance:maxerror") return number(a.max_error);
   if (name == "irradiance:maxpixeldist") return number(a.max_pixel_distance);
+  if (name == "irradiance:handle") return text(a.irradiance_file);
+  if (name == "irradiance:filemode") return text(kCacheModes[static_cast<size_t>(a.irradiance_mode)]);
   if (name == "grouping:membership") return text(a.groups);
   return {};
 }
@@ -140,8 +162,7 @@ std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view 
   if (category == "trace") return set_trace(a, name, value);
   if (category == "shade") return set_shade(a, name, value);
   if (category == "grouping" && name == "membership") return set_groups(a.groups, value);
-  if (category == "irradiance" && name == "maxerror") return set_number(a.max_error, value);
-  if (category == "irradiance" && name == "maxpixeldist") return set_number(a.max_pixel_distance, value);
+  if (category == "irradiance") return set_irradiance(a, name, value);
   return {};
 }
 

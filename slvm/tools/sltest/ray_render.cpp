@@ -1,4 +1,5 @@
 // Ray scenes by the renderer: the module sltest_rays.so.
+#include "render/caches/cache_files.h"
 #include "render/rays/ray_tracer.h"
 #include "render/shading/services.h"
 #include "render/state/interpreter.h"
@@ -40,19 +41,23 @@ public:
     settings.folders = request.path;
     textures_ = std::make_unique<render::TextureMaps>(settings);
     bound_ = std::make_unique<render::BoundShaders>(scene_, *request.machine, cache_, diagnostics);
-    lookups_ =
-        std::make_unique<subsurface::CloudLookups>(clouds_, [path = request.path](std::string_view name) {
-          return render::find_file(name, path).value_or(std::string(name));
-        });
+    auto find = [path = request.path](std::string_view name) {
+      return render::find_file(name, path).value_or(std::string(name));
+    };
+    lookups_ = std::make_unique<subsurface::CloudLookups>(clouds_, find);
+    caches_ = std::make_unique<render::CacheFiles>(find);
     services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, *lookups_,
                                                         [](std::string_view) {});
     tracer_ = std::make_unique<render::RayTracer>(scene_, *request.machine, *bound_, *services_);
     tracer_->set_default_attributes(own);
+    tracer_->set_cache_files(caches_.get());
     services_->set_rays(tracer_.get());
+    services_->set_irradiance_caches(caches_.get());
     problem_ = format_diagnostics(diagnostics, sources);
   }
 
   RayServices& rays() override { return *tracer_; }
+  IrradianceCacheServices& irradiance_caches() override { return *caches_; }
   const std::string& problem() const override { return problem_; }
 
 private:
@@ -62,6 +67,7 @@ private:
   std::unique_ptr<render::BoundShaders> bound_;
   subsurface::CloudCache clouds_;
   std::unique_ptr<subsurface::CloudLookups> lookups_;
+  std::unique_ptr<render::CacheFiles> caches_;
   std::unique_ptr<render::SceneServices> services_;
   std::unique_ptr<render::RayTracer> tracer_;
   std::string problem_;

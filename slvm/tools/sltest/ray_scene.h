@@ -24,6 +24,8 @@ class RayScene {
 public:
   virtual ~RayScene() = default;
   virtual RayServices& rays() = 0;
+  /// Files are read; what is inserted is not written.
+  virtual IrradianceCacheServices& irradiance_caches() = 0;
   /// What is wrong with the RIB, or "".
   virtual const std::string& problem() const = 0;
 };

@@ -50,9 +50,10 @@ struct Scene {
 
 class MemoryServices final : public RendererServices {
 public:
-  /// `rays` may be null.
-  MemoryServices(const Scene& scene, std::vector<const Instance*> lights, RayServices* rays = nullptr)
-      : scene_(scene), lights_(std::move(lights)), rays_(rays) {}
+  /// `rays` and `caches` may be null.
+  MemoryServices(const Scene& scene, std::vector<const Instance*> lights, RayServices* rays = nullptr,
+                 IrradianceCacheServices* caches = nullptr)
+      : scene_(scene), lights_(std::move(lights)), rays_(rays), caches_(caches) {}
 
   bool space_to_current(const ShadingState&, std::string_view space, Matrix4& m) override;
   bool current_to_space(const ShadingState&, std::string_view space, Matrix4& m) override;
@@ -63,6 +64,7 @@ public:
   void print(const ShadingState&, std::string_view text) override { printed_ += text; }
   TextureServices* textures() override;
   RayServices* rays() override { return rays_; }
+  IrradianceCacheServices* irradiance_caches() override { return caches_; }
   SubsurfaceServices* subsurface() override { return scene_.clouds ? &scene_.clouds->lookups : nullptr; }
 
   const std::string& printed() const { return printed_; }
@@ -72,6 +74,7 @@ private:
   const Scene& scene_;
   std::vector<const Instance*> lights_;
   RayServices* rays_;
+  IrradianceCacheServices* caches_;
   std::string printed_;
 };
 
