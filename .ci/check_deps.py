@@ -47,7 +47,7 @@ ALLOWED = {
     # What slrender and the C interface share: shaders are compiled on the fly.
     "render/setup": ["render", "slc", "public"],
     "render/ri": ["render", "public"],
-    "render/tools": ["render", "slc", "public"],
+    "render/tools": ["render", "slc", "public", "stdlib/subsurface"],
     "stdlib": [],
     "stdlib/subsurface": ["slvm/support"],
     # What a program hangs into its services.
