@@ -191,8 +191,8 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
   EXPECT_EQ(messages_of("Attribute \"trace\" \"bias\" .1"), "");
   EXPECT_THAT(
-      messages_of("Attribute \"irradiance\" \"handle\" \"a\""),
-      HasSubstr("Attribute \"irradiance\" \"handle\" has no effect: irradiance is not kept in files"));
+      messages_of("Attribute \"dice\" \"strategy\" \"a\""),
+      HasSubstr("Attribute \"dice\" \"strategy\" has no effect: sizes are measured in the image"));
   EXPECT_THAT(messages_of("Option \"bucket\" \"order\" \"circle\""),
               HasSubstr("Option \"bucket\" \"order\" has no effect: buckets are rendered in rows"));
   EXPECT_THAT(messages_of("Option \"statistics\" \"filename\" \"a\""),
