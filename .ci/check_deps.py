@@ -9,7 +9,7 @@ import re
 import tree
 
 SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/irradiance_cache",
-            "slvm/renderer_services"]
+            "slvm/photon_map", "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -24,8 +24,9 @@ ALLOWED = {
     "slvm/rays": ["slvm/format"],
     "slvm/subsurface": [],
     "slvm/irradiance_cache": [],
+    "slvm/photon_map": [],
     "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface",
-                               "slvm/irradiance_cache", "slvm/format", "slvm/support", "slvm/value"],
+                               "slvm/irradiance_cache", "slvm/photon_map", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
     "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
     "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",

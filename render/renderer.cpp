@@ -6,6 +6,8 @@
 #include "render/display/preview.h"
 #include "render/hider/frame.h"
 #include "render/map_requests.h"
+#include "render/photons/photon_maps.h"
+#include "render/photons/photon_tracer.h"
 #include "render/rays/ray_tracer.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
@@ -17,6 +19,8 @@
 #include "stdlib/scattering/cloud_lookups.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <optional>
@@ -41,6 +45,7 @@ struct Renderer::Impl {
   }
 
   void render(Scene& scene);
+  void emit_photons(Scene& scene);
   void report_runtime_messages();
   void report_pixels(const FrameSettings& s, const FrameReport& report);
   void report_replaced(TextureMaps& textures);
@@ -102,10 +107,58 @@ subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Opt
   return subsurface::CloudLookups(clouds, texture_finder(options));
 }
 
+/// What shaders of a frame ask. All arguments must outlive this.
+struct FrameServices {
+  FrameServices(const Scene& frame, const slvm::Machine& machine, const BoundShaders& shaders,
+                subsurface::CloudCache& clouds, const std::function<void(std::string_view)>& print)
+      : textures(texture_settings(frame.options)), lookups(cloud_lookups(clouds, frame.options)),
+        caches(texture_finder(frame.options)), photons(texture_finder(frame.options)),
+        services(frame, shaders, textures, lookups, print), rays(frame, machine, shaders, services) {
+    services.set_rays(&rays);
+    services.set_irradiance_caches(&caches);
+    services.set_photon_maps(&photons);
+    rays.set_cache_files(&caches);
+    rays.set_photon_maps(&photons);
+  }
+
+  TextureMaps textures;
+  subsurface::CloudLookups lookups;
+  CacheFiles caches;
+  PhotonMaps photons;
+  SceneServices services;
+  RayTracer rays;
+};
+
 } // namespace
+
+/// Instead of a picture: Hider "photon".
+void Renderer::Impl::emit_photons(Scene& frame) {
+  make_what_rays_see(frame);
+  BoundShaders shaders(frame, machine, cache, diagnostics);
+  flush();
+  FrameServices all(frame, machine, shaders, clouds, settings.print);
+  all.rays.show_to_photons();
+  PhotonTracer tracer(frame, machine, shaders, all.services, all.rays);
+  const int threads = thread_count(settings.threads > 0 ? settings.threads : frame.options.threads);
+  tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    for (const std::string& problem : tracer.run(frame.options.photons).problems)
+      diagnostics.warning({}, "photon", problem);
+    if (tracer.maps().empty())
+      diagnostics.warning(
+          {}, "photon",
+          "no photon was stored: surfaces need Attribute \"photon\" \"globalmap\" or \"causticmap\"");
+    for (const std::string& problem : tracer.write())
+      diagnostics.error({}, problem);
+  });
+  report_runtime_messages();
+  flush();
+}
 
 void Renderer::Impl::render(Scene& frame) {
   if (frame.options.no_image) return;
+  if (frame.options.photons > 0) return emit_photons(frame);
   if (frame.options.displays.empty()) frame.options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
   FrameSettings s;
   s.threads = settings.threads > 0 ? settings.threads : frame.options.threads;
@@ -121,19 +174,12 @@ void Renderer::Impl::render(Scene& frame) {
   BoundShaders shaders(frame, machine, cache, diagnostics);
   flush();
   if (s.progress) s.progress(0);
-  TextureMaps textures(texture_settings(frame.options));
-  subsurface::CloudLookups lookups = cloud_lookups(clouds, frame.options);
-  SceneServices services(frame, shaders, textures, lookups, settings.print);
-  RayTracer rays(frame, machine, shaders, services);
-  services.set_rays(&rays);
-  CacheFiles caches(texture_finder(frame.options));
-  services.set_irradiance_caches(&caches);
-  rays.set_cache_files(&caches);
-  VmShading shading(machine, shaders, services);
+  FrameServices all(frame, machine, shaders, clouds, settings.print);
+  VmShading shading(machine, shaders, all.services);
   s.make_content = [&](const Procedural& p, float area) {
     SceneContent content = interpreter.make_content(p, area);
     shaders.add(content.primitives);
-    services.add_spaces(content.spaces);
+    all.services.add_spaces(content.spaces);
     return content;
   };
   DepthMask mask;
@@ -152,12 +198,14 @@ void Renderer::Impl::render(Scene& frame) {
     if (std::string why = preview->finish(); !why.empty())
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
-  report_replaced(textures);
+  report_replaced(all.textures);
+  for (const std::string& problem : all.photons.problems())
+    diagnostics.warning({}, "photon", problem);
   report_pixels(s, report);
   started = Clock::now();
   for (std::string& name : write_displays(frame, image, s.aovs, diagnostics))
     written.push_back(std::move(name));
-  for (const std::string& problem : caches.write())
+  for (const std::string& problem : all.caches.write())
     diagnostics.error({}, problem);
   statistics.write_seconds = seconds_since(started);
   if (settings.statistics) {
@@ -169,8 +217,8 @@ void Renderer::Impl::render(Scene& frame) {
     statistics.height = image.rect.height();
     statistics.samples_per_pixel = o.xsamples * o.ysamples;
     statistics.threads = thread_count(s.threads);
-    auto [files, bytes] = textures.usage();
-    statistics.rays = rays.usage();
+    auto [files, bytes] = all.textures.usage();
+    statistics.rays = all.rays.usage();
     statistics.texture_files = files;
     statistics.texture_bytes = bytes;
     statistics.peak_bytes = peak_memory();
@@ -183,7 +231,8 @@ void Renderer::Impl::render(Scene& frame) {
 void Renderer::Impl::make_what_rays_see(Scene& scene) {
   Camera camera(scene.options);
   for (size_t i = 0; i < scene.procedurals.size();) {
-    if (!scene.procedurals[i].attributes->rays.seen_by_rays()) {
+    const RayAttributes& rays = scene.procedurals[i].attributes->rays;
+    if (!rays.seen_by_rays() && !(scene.options.photons > 0 && rays.photon)) {
       ++i;
       continue;
     }

@@ -27,6 +27,11 @@ public:
   /// Files that occlusion() and indirectdiffuse() read and write; null: none. They must outlive this.
   void set_cache_files(CacheFiles* files) { cache_files_ = files; }
 
+  /// Photon maps that diffuse rays take light from; null: none. They must outlive this.
+  void set_photon_maps(PhotonMaps* maps) { hits_.set_photon_maps(maps); }
+  /// Before the first ray: specular rays are photons, by what they see.
+  void show_to_photons() { geometry_settings_.photons = true; }
+
   void trace(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,
              std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors) override;
   void transmission(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,

@@ -30,6 +30,9 @@ enum class CacheMode : uint8_t {
   kOnly,         ///< "R": nothing is computed
 };
 
+/// What a photon does at a surface.
+enum class PhotonModel : uint8_t { kMatte, kTranslucent, kChrome, kGlass, kWater, kTransparent };
+
 struct RayAttributes {
   // "visibility"
   bool camera = true, specular = false, diffuse = false, photon = true;
@@ -44,6 +47,10 @@ struct RayAttributes {
   float max_error = 0.5f, max_pixel_distance = 30;
   std::string irradiance_file; ///< "handle"
   CacheMode irradiance_mode = CacheMode::kNone;
+  // "photon"
+  std::string global_map, caustic_map; ///< files
+  PhotonModel photon_model = PhotonModel::kMatte;
+  int photon_estimator = 100; ///< photons that radiance is computed of
   /// "grouping" "membership": names with single spaces between.
   std::string groups;
 

@@ -165,7 +165,8 @@ std::string describe(const PointTable& table, const std::string& name) {
   return out;
 }
 
-slvm::Result<std::string> scene_of(const PointTable& table, const ViewSettings& s, const std::string& display) {
+slvm::Result<std::string> scene_of(const PointTable& table, const ViewSettings& s,
+                                   const std::string& display) {
   auto shown = shown_column(table, s.show);
   if (!shown) return slvm::Error{shown.error()};
   const Box box = table.points ? bounds_of(table) : Box{Vec3(-1), Vec3(1)};
@@ -184,12 +185,13 @@ slvm::Result<std::string> scene_of(const PointTable& table, const ViewSettings& 
   } else if (table.points) {
     points = points_of(table, *shown, s, 3 * pixel);
   }
-  return fmt::format("Display \"{}\" \"file\" \"rgba\"\nFormat {} {} 1\nPixelSamples 3 3\n"
-                     "Projection \"perspective\" \"fov\" [{}]\nExposure 1 {}\n"
-                     "Translate 0 0 {}\nRotate {} 1 0 0\nRotate {} 0 1 0\nTranslate {} {} {}\n"
-                     "Imager \"background\" \"color bgcolor\" [.02 .02 .03]\nWorldBegin\nSurface \"constant\"\n{}WorldEnd\n",
-                     display, s.width, s.height, view, display.ends_with(".exr") ? 1.0 : 2.2, distance, -s.tilt, s.turn, -middle.x, -middle.y,
-                     -middle.z, points);
+  return fmt::format(
+      "Display \"{}\" \"file\" \"rgba\"\nFormat {} {} 1\nPixelSamples 3 3\n"
+      "Projection \"perspective\" \"fov\" [{}]\nExposure 1 {}\n"
+      "Translate 0 0 {}\nRotate {} 1 0 0\nRotate {} 0 1 0\nTranslate {} {} {}\n"
+      "Imager \"background\" \"color bgcolor\" [.02 .02 .03]\nWorldBegin\nSurface \"constant\"\n{}WorldEnd\n",
+      display, s.width, s.height, view, display.ends_with(".exr") ? 1.0 : 2.2, distance, -s.tilt, s.turn,
+      -middle.x, -middle.y, -middle.z, points);
 }
 
 subsurface::PointCloud cloud_of(const PointTable& table) {
@@ -217,8 +219,8 @@ subsurface::PointCloud cloud_of(const PointTable& table) {
       for (uint32_t k = 0; k < c.components; ++k) {
         const bool direction = c.name == "environmentdir" || c.name == "direction";
         std::string name = c.components == 1 ? c.name
-                           : three ? fmt::format("{}_{}", c.name, (direction ? kAxes : kColours)[k])
-                                   : fmt::format("{}_{}", c.name, k);
+                           : three           ? fmt::format("{}_{}", c.name, (direction ? kAxes : kColours)[k])
+                                             : fmt::format("{}_{}", c.name, k);
         subsurface::Channel& channel = out.channels.emplace_back();
         channel.name = std::move(name);
         for (size_t i = 0; i < table.points; ++i)

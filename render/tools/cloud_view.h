@@ -16,12 +16,12 @@ slvm::Result<PointTable> read_cloud(const std::string& path);
 std::string describe(const PointTable& table, const std::string& name);
 
 struct ViewSettings {
-  std::string show; ///< a column of one or three components; "": what is most likely wanted
-  bool discs = false;             ///< lying on the surface, not points
-  float scale = 1;                ///< of points and discs
-  float turn = 0, tilt = 0;       ///< degrees: round the upright axis, then up or down
+  std::string show;         ///< a column of one or three components; "": what is most likely wanted
+  bool discs = false;       ///< lying on the surface, not points
+  float scale = 1;          ///< of points and discs
+  float turn = 0, tilt = 0; ///< degrees: round the upright axis, then up or down
   float zoom = 1;
-  float gain = 1;                 ///< multiplies what is shown
+  float gain = 1; ///< multiplies what is shown
   int width = 512, height = 512;
 };
 

@@ -1,6 +1,7 @@
-// Files of irradiance caches from anywhere: as they are, and with a checksum that fits, so that damage gets
-// past it. What is accepted is looked up, and comes back when it is written.
+// Files of irradiance caches and photon maps from anywhere: as they are, and with a checksum that fits, so
+// that damage gets past it. What is accepted is looked up, and comes back when it is written.
 #include "render/caches/irradiance_cache.h"
+#include "render/photons/photon_map.h"
 
 #include "slvm/format/slo.h"
 
@@ -22,6 +23,13 @@ void seal(std::vector<std::byte>& bytes) {
 
 void use(const PointTable& table) {
   if (!parse_point_table(format_point_table(table), "again")) std::abort();
+  if (auto photons = photons_of(table, "fuzz.gpm")) {
+    const PhotonMap map(*photons);
+    static_cast<void>(map.irradiance({{0.5f, 0, 1}, {0, 0, 1}, 3, 2, 1}));
+    static_cast<void>(map.irradiance({{0, 0, 0}, Vec3(0.0f), 1000, kInfinity, 0}));
+    static_cast<void>(map.radiance({0, 1, 0}, {0, 1, 0}));
+    if (!photons_of(table_of(map.photons()), "again")) std::abort();
+  }
   auto records = records_of(table, "fuzz.icf");
   if (!records) return;
   const std::vector<IrradianceRecord> all = merged(*records);

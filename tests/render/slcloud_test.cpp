@@ -107,7 +107,8 @@ TEST_F(SlCloud, shows_what_is_asked_for) {
   const auto occlusion = picture("--show occlusion");
   EXPECT_NEAR(seen(occlusion, 2).greatest, 0.8, 0.04);
   EXPECT_EQ(run("two.icf -o out.exr --show power"), 1);
-  EXPECT_EQ(said(), "slcloud: error: there is no 'power' to be shown; there is P N radius irradiance occlusion\n");
+  EXPECT_EQ(said(),
+            "slcloud: error: there is no 'power' to be shown; there is P N radius irradiance occlusion\n");
 }
 
 TEST_F(SlCloud, writes_scenes_and_clouds) {

@@ -26,6 +26,7 @@ public:
   virtual RayServices& rays() = 0;
   /// Files are read; what is inserted is not written.
   virtual IrradianceCacheServices& irradiance_caches() = 0;
+  virtual PhotonMapServices& photon_maps() = 0;
   /// What is wrong with the RIB, or "".
   virtual const std::string& problem() const = 0;
 };

@@ -159,7 +159,8 @@ std::vector<const Instance*> pointers(const std::vector<std::unique_ptr<Instance
 Worker::Worker(const Binding& binding)
     : binding_(binding), services_(binding.prepared_->scene, pointers(binding.lights_),
                                    binding.ray_scene_ ? &binding.ray_scene_->rays() : nullptr,
-                                   binding.ray_scene_ ? &binding.ray_scene_->irradiance_caches() : nullptr),
+                                   binding.ray_scene_ ? &binding.ray_scene_->irradiance_caches() : nullptr,
+                                   binding.ray_scene_ ? &binding.ray_scene_->photon_maps() : nullptr),
       context_(binding.machine_, services_), grid_(binding.prepared_->grid.nu, binding.prepared_->grid.nv) {}
 
 double Worker::shade() {

@@ -50,10 +50,10 @@ struct Scene {
 
 class MemoryServices final : public RendererServices {
 public:
-  /// `rays` and `caches` may be null.
+  /// `rays`, `caches` and `photons` may be null.
   MemoryServices(const Scene& scene, std::vector<const Instance*> lights, RayServices* rays = nullptr,
-                 IrradianceCacheServices* caches = nullptr)
-      : scene_(scene), lights_(std::move(lights)), rays_(rays), caches_(caches) {}
+                 IrradianceCacheServices* caches = nullptr, PhotonMapServices* photons = nullptr)
+      : scene_(scene), lights_(std::move(lights)), rays_(rays), caches_(caches), photons_(photons) {}
 
   bool space_to_current(const ShadingState&, std::string_view space, Matrix4& m) override;
   bool current_to_space(const ShadingState&, std::string_view space, Matrix4& m) override;
@@ -65,6 +65,7 @@ public:
   TextureServices* textures() override;
   RayServices* rays() override { return rays_; }
   IrradianceCacheServices* irradiance_caches() override { return caches_; }
+  PhotonMapServices* photon_maps() override { return photons_; }
   SubsurfaceServices* subsurface() override { return scene_.clouds ? &scene_.clouds->lookups : nullptr; }
 
   const std::string& printed() const { return printed_; }
@@ -75,6 +76,7 @@ private:
   std::vector<const Instance*> lights_;
   RayServices* rays_;
   IrradianceCacheServices* caches_;
+  PhotonMapServices* photons_;
   std::string printed_;
 };
 
