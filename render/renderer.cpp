@@ -143,8 +143,10 @@ void Renderer::Impl::emit_photons(Scene& frame) {
   tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   tbb::task_arena arena(threads);
   arena.execute([&] {
-    for (const std::string& problem : tracer.run(frame.options.photons).problems)
+    const PhotonReport report = tracer.run(frame.options.photons);
+    for (const std::string& problem : report.problems)
       diagnostics.warning({}, "photon", problem);
+    if (settings.photons) settings.photons(report);
     if (tracer.maps().empty())
       diagnostics.warning(
           {}, "photon",

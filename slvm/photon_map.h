@@ -15,8 +15,8 @@
 namespace slvm {
 
 struct PhotonLookup {
-  std::string_view file; ///< as the shader names it; never empty
-  size_t photons = 50;   ///< that an estimate is made of, at most
+  std::string_view file;                                       ///< as the shader names it; never empty
+  size_t photons = 50;                                         ///< that an estimate is made of, at most
   float max_distance = std::numeric_limits<float>::infinity(); ///< farther photons do not count
   float min_depth = 0;   ///< photons that were scattered less often do not count
   bool radiance = false; ///< instead: what leaves the surface at the nearest photon

@@ -94,7 +94,9 @@ void LightEmission::look_at_layer(int n, int k, std::vector<Vec3>& lit, std::vec
   std::vector<Vec3> points, L;
   std::vector<Color> Cl;
   // None of them in a plane or on an axis that scenes like to have things in.
-  auto at = [&](int i, float shift) { return (2 * (static_cast<float>(i) + shift) / static_cast<float>(n) - 1) * scene_.radius; };
+  auto at = [&](int i, float shift) {
+    return (2 * (static_cast<float>(i) + shift) / static_cast<float>(n) - 1) * scene_.radius;
+  };
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i)
       points.push_back(scene_.centre + Vec3(at(i, 0.41f), at(j, 0.57f), at(k, 0.46f)));
@@ -165,7 +167,8 @@ void LightEmission::find_distribution() {
       float most = 0;
       for (int v = std::max(0, j - 1); v <= std::min(kRows - 1, j + 1); ++v)
         for (int u = i - 1; u <= i + 1; ++u)
-          most = std::max(most, brightness(Cl[static_cast<size_t>(v * kColumns + (u + kColumns) % kColumns)]));
+          most =
+              std::max(most, brightness(Cl[static_cast<size_t>(v * kColumns + (u + kColumns) % kColumns)]));
       const float own = brightness(Cl[static_cast<size_t>(j * kColumns + i)]);
       cumulated_.push_back(sum += static_cast<double>(0.75f * own + 0.25f * most));
     }
@@ -182,8 +185,8 @@ EmittedPhotons LightEmission::emit(size_t first, size_t count, size_t all, uint6
                    more = hash_of(static_cast<int64_t>(hash), 1, kPhotonOrigin);
     const double at = sum * static_cast<double>(stratified(i, all, hash));
     const auto it = std::upper_bound(cumulated_.begin(), cumulated_.end(), at);
-    const auto k = static_cast<size_t>(std::min<std::ptrdiff_t>(it - cumulated_.begin(),
-                                                                static_cast<std::ptrdiff_t>(cumulated_.size()) - 1));
+    const auto k = static_cast<size_t>(std::min<std::ptrdiff_t>(
+        it - cumulated_.begin(), static_cast<std::ptrdiff_t>(cumulated_.size()) - 1));
     const double own = cumulated_[k] - (k ? cumulated_[k - 1] : 0);
     const float row = static_cast<float>(k / kColumns) + upper_unit(more),
                 column = static_cast<float>(k % kColumns) + lower_unit(more);

@@ -58,8 +58,8 @@ private:
   const slvm::Instance& light_;
   SceneSphere scene_;
   enum class Kind : uint8_t { kNone, kPoint, kDistant } kind_ = Kind::kNone;
-  Vec3 from_{0.0f};              ///< the point, or the direction of the light
-  float reach_ = 1;              ///< distance from the point at which it is looked at
+  Vec3 from_{0.0f};               ///< the point, or the direction of the light
+  float reach_ = 1;               ///< distance from the point at which it is looked at
   std::vector<double> cumulated_; ///< of the cells' shares
   Color power_{0.0f};
   std::string problem_;

@@ -104,8 +104,8 @@ slvm::Result<std::vector<Photon>> photons_of(const PointTable& table, const std:
                     *power = table.find("power", 3), *radiance = table.find("radiance", 3),
                     *depth = table.find("depth", 1);
   if (!P || !N || !direction || !power || !radiance || !depth)
-    return slvm::Error{fmt::format(
-        "{}: the {} needs columns P, N, direction, power, radiance and depth", name, kKind)};
+    return slvm::Error{
+        fmt::format("{}: the {} needs columns P, N, direction, power, radiance and depth", name, kKind)};
   std::vector<Photon> out(table.points);
   auto triple = [](const PointColumn& c, size_t i) {
     return Vec3(c.values[3 * i], c.values[3 * i + 1], c.values[3 * i + 2]);

@@ -14,11 +14,11 @@
 namespace render {
 
 struct Photon {
-  Vec3 P{0.0f}, N{0.0f};  ///< N of length 1, the side that it came to
-  Vec3 direction{0.0f};   ///< it came along
-  Color power{0.0f};      ///< as it arrived
-  Color radiance{0.0f};   ///< that leaves the surface here, of all photons near it
-  float depth = 0;        ///< how often it was scattered before
+  Vec3 P{0.0f}, N{0.0f}; ///< N of length 1, the side that it came to
+  Vec3 direction{0.0f};  ///< it came along
+  Color power{0.0f};     ///< as it arrived
+  Color radiance{0.0f};  ///< that leaves the surface here, of all photons near it
+  float depth = 0;       ///< how often it was scattered before
 };
 
 PointTable table_of(std::span<const Photon> photons);
@@ -36,8 +36,8 @@ public:
     float max_distance = kInfinity;
     float min_depth = 0;
   };
-  /// Light per area: the power of the nearest photons but the farthest of them, by the circle through that one
-  /// (which makes the mean right; Mack and Rosenblatt, Multivariate k-Nearest Neighbor Density Estimates,
+  /// Light per area: the power of the nearest photons but the farthest of them, by the circle through that
+  /// one (which makes the mean right; Mack and Rosenblatt, Multivariate k-Nearest Neighbor Density Estimates,
   /// 1979). Those of other sides leave their part of the circle dark.
   Color irradiance(const Place& place) const;
   /// The radiance of the nearest photon of the same side; black when there is none among those near.

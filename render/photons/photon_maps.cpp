@@ -62,9 +62,9 @@ std::string PhotonMaps::photon_map(const slvm::PhotonLookup& lookup) {
   for (size_t i = 0; i < lookup.points; ++i) {
     if (!lookup.active(i)) continue;
     const Vec3 P = at(lookup.position, i), N = at(lookup.normal, i);
-    const Color light = lookup.radiance
-                            ? from.map->radiance(P, N)
-                            : from.map->irradiance({P, N, lookup.photons, lookup.max_distance, lookup.min_depth});
+    const Color light =
+        lookup.radiance ? from.map->radiance(P, N)
+                        : from.map->irradiance({P, N, lookup.photons, lookup.max_distance, lookup.min_depth});
     for (int c = 0; c < 3; ++c)
       lookup.result[c][i] = light[c];
   }

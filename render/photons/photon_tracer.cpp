@@ -33,7 +33,8 @@ Vec3 diffuse_direction(Vec3 n, float a, float b) {
   Vec3 x, y;
   basis_about(n, x, y);
   const float r = std::sqrt(a), angle = 2 * kPi * b;
-  return glm::normalize(r * std::cos(angle) * x + r * std::sin(angle) * y + std::sqrt(std::max(0.0f, 1 - a)) * n);
+  return glm::normalize(r * std::cos(angle) * x + r * std::sin(angle) * y +
+                        std::sqrt(std::max(0.0f, 1 - a)) * n);
 }
 
 /// Of unpolarised light on a smooth surface, for a ray from a medium into one `eta` times as dense; and the
@@ -49,6 +50,12 @@ float reflected_part(Vec3 d, Vec3 n, float eta, Vec3& through) {
 }
 
 } // namespace
+
+std::string format_text(const PhotonReport& r) {
+  auto colour = [](Color c) { return fmt::format("{:.4g} {:.4g} {:.4g}", c.x, c.y, c.z); };
+  return fmt::format("photons: {} emitted, {} stored; power {}: absorbed {}, escaped {}\n", r.emitted,
+                     r.stored, colour(r.power), colour(r.absorbed), colour(r.escaped));
+}
 
 /// A photon between two surfaces.
 struct PhotonTracer::Flying {
@@ -127,7 +134,8 @@ PhotonReport PhotonTracer::run(size_t photons) {
   for (const Primitive& p : scene_.primitives)
     if (p.attributes().rays.photon) box.add(p.camera_bound({}));
   if (box.empty()) return report;
-  const SceneSphere sphere{0.5f * (box.min + box.max), std::max(0.51f * glm::length(box.max - box.min), 1e-6f)};
+  const SceneSphere sphere{0.5f * (box.min + box.max),
+                           std::max(0.51f * glm::length(box.max - box.min), 1e-6f)};
   std::vector<LightEmission> emissions;
   double all = 0;
   for (const slvm::Instance* light : lights()) {
@@ -145,8 +153,8 @@ PhotonReport PhotonTracer::run(size_t photons) {
   };
   std::vector<Share> shares;
   for (size_t k = 0; k < emissions.size(); ++k) {
-    const auto count = static_cast<size_t>(
-        std::llround(static_cast<double>(photons) * static_cast<double>(greatest(emissions[k].power())) / all));
+    const auto count = static_cast<size_t>(std::llround(
+        static_cast<double>(photons) * static_cast<double>(greatest(emissions[k].power())) / all));
     report.emitted += count;
     for (size_t first = 0; first < count; first += kAtATime)
       shares.push_back({k, first, std::min(kAtATime, count - first), count});
@@ -244,8 +252,8 @@ bool PhotonTracer::scatter(Flying& f, const Hits& hits, size_t i, Batch& batch) 
       Map& map = batch.maps[name];
       map.photons.push_back({transform_point(to_world_, P),
                              glm::normalize(Vec3(transform_vector(to_world_, n))),
-                             glm::normalize(Vec3(transform_vector(to_world_, f.direction))), f.power, Color(0),
-                             static_cast<float>(f.specular + f.diffuse)});
+                             glm::normalize(Vec3(transform_vector(to_world_, f.direction))), f.power,
+                             Color(0), static_cast<float>(f.specular + f.diffuse)});
       map.colour.push_back(colour);
       map.estimator.push_back(static_cast<int>(hits.estimator[i]));
       ++batch.stored;
@@ -257,9 +265,9 @@ bool PhotonTracer::scatter(Flying& f, const Hits& hits, size_t i, Batch& batch) 
   // Whether it goes on, and with what.
   const Color left = f.power * colour;
   const float chance = std::min(1.0f, greatest(left) / greatest(f.power));
-  const bool too_often = scattered >= kMostScattered ||
-                         (diffuse ? static_cast<float>(f.diffuse) >= hits.diffuse[i]
-                                  : static_cast<float>(f.specular) >= hits.specular[i]);
+  const bool too_often =
+      scattered >= kMostScattered || (diffuse ? static_cast<float>(f.diffuse) >= hits.diffuse[i]
+                                              : static_cast<float>(f.specular) >= hits.specular[i]);
   if (too_often || !(upper_unit(random(0)) < chance)) {
     batch.absorbed += f.power;
     return false;

@@ -22,6 +22,8 @@ struct PhotonReport {
   Color escaped{0.0f};  ///< out of the scene
   std::vector<std::string> problems;
 };
+/// A line of text.
+std::string format_text(const PhotonReport&);
 
 class PhotonTracer {
 public:

@@ -68,8 +68,8 @@ void photon_map(const GridCall& call) {
   lookup.mask = run.mask.current();
   for (size_t c = 0; c < 3; ++c)
     lookup.result[c] = result.data() + c * run.points;
-  const std::string problem = lookup.file.empty() ? "it needs the name of a file"
-                                                  : look_up(call, tokens, arguments, lookup);
+  const std::string problem =
+      lookup.file.empty() ? "it needs the name of a file" : look_up(call, tokens, arguments, lookup);
   if (!problem.empty())
     run.report(call.code, MessageSeverity::kWarning, fmt::format("{}: {}", call.info.name, problem),
                mask_count(run.mask.current(), run.points));

@@ -54,7 +54,8 @@ TEST(PhotonMap, more_photons_make_less_noise) {
     double sum = 0;
     for (int i = 0; i < 200; ++i) {
       const float x = 0.2f + 0.003f * static_cast<float>(i);
-      sum += std::pow(static_cast<double>(map.irradiance({{x, 0.5f, 0}, {0, 0, 1}, count, kInfinity, 0}).x) - 1, 2);
+      sum += std::pow(
+          static_cast<double>(map.irradiance({{x, 0.5f, 0}, {0, 0, 1}, count, kInfinity, 0}).x) - 1, 2);
     }
     return std::sqrt(sum / 200);
   };
