@@ -8,7 +8,8 @@ import re
 
 import tree
 
-SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/point_clouds", "slvm/renderer_services"]
+SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/point_clouds",
+            "slvm/irradiance_cache", "slvm/photon_map", "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -23,7 +24,10 @@ ALLOWED = {
     "slvm/rays": ["slvm/format"],
     "slvm/subsurface": [],
     "slvm/point_clouds": ["slvm/format"],
-    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/point_clouds", "slvm/format", "slvm/support", "slvm/value"],
+    "slvm/irradiance_cache": [],
+    "slvm/photon_map": [],
+    "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/point_clouds",
+                               "slvm/irradiance_cache", "slvm/photon_map", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,
     "slvm/evaluator": ["slvm/ir", "slvm/format", "slvm/kernels", "slvm/wide", "slvm/support"],
     "slvm/machine": ["slvm/format", "slvm/ir", "slvm/wide", "slvm/kernels", "slvm/exec", "slvm/evaluator",
@@ -38,7 +42,8 @@ ALLOWED = {
     "slc": ["slvm/format", "slvm/ir", "slvm/support", "slvm/value"],
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
-    "render": ["public", "stdlib/scattering", "render/hider/quad_coverage", "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights"],
+    "render": ["public", "stdlib/scattering", "stdlib/subsurface/octree", "stdlib/subsurface/vec3", "render/hider/quad_coverage",
+               "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights"],
     # Compiled once for each SIMD target.
     "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
     "render/hider/quad_paint": ["render", "public", "slvm/wide/targets"],
@@ -46,7 +51,7 @@ ALLOWED = {
     # What slrender and the C interface share: shaders are compiled on the fly.
     "render/setup": ["render", "slc", "public"],
     "render/ri": ["render", "public"],
-    "render/tools": ["render", "slc", "public"],
+    "render/tools": ["render", "slc", "public", "stdlib/subsurface"],
     "stdlib": [],
     "stdlib/subsurface": ["slvm/support", "stdlib/subsurface/dipole_block"],
     "stdlib/subsurface/dipole_block": ["stdlib/subsurface", "slvm/wide/targets"],

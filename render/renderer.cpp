@@ -1,10 +1,13 @@
 // The steps of a frame, from scene to files.
 #include "render/renderer.h"
 
+#include "render/caches/cache_files.h"
 #include "render/display/output.h"
 #include "render/display/preview.h"
 #include "render/hider/frame.h"
 #include "render/map_requests.h"
+#include "render/photons/photon_maps.h"
+#include "render/photons/photon_tracer.h"
 #include "render/rays/ray_tracer.h"
 #include "render/shading/vm_shading.h"
 #include "render/state/interpreter.h"
@@ -17,6 +20,8 @@
 #include "stdlib/scattering/cloud_lookups.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <optional>
@@ -41,7 +46,9 @@ struct Renderer::Impl {
   }
 
   void render(Scene& scene);
+  void emit_photons(Scene& scene);
   void report_runtime_messages();
+  void report_pixels(const FrameSettings& s, const FrameReport& report);
   void report_replaced(TextureMaps& textures);
   void write_points(subsurface::BakedClouds& baked);
   void end_plugins();
@@ -83,8 +90,8 @@ TextureMaps::Settings texture_settings(const Options& options) {
   return s;
 }
 
-/// Finds clouds of points, in the search path of textures. The options must live as long.
-auto cloud_finder(const Options& options) {
+/// Turns the name of a file that is read into a path; the options must live as long.
+std::function<std::string(std::string_view)> texture_finder(const Options& options) {
   return [&options](std::string_view name) {
     const auto folders = options.search_paths.find("texture");
     if (folders == options.search_paths.end()) return std::string(name);
@@ -99,13 +106,66 @@ subsurface::CloudLookups cloud_lookups(subsurface::CloudCache& clouds, const Opt
   if (auto it = options.named.find("subsurface:treefolder"); it != options.named.end())
     s.folder = it->second.strings[0];
   clouds.configure(std::move(s));
-  return subsurface::CloudLookups(clouds, cloud_finder(options));
+  return subsurface::CloudLookups(clouds, texture_finder(options));
 }
+
+/// What shaders of a frame ask. All arguments must outlive this.
+struct FrameServices {
+  FrameServices(const Scene& frame, const slvm::Machine& machine, const BoundShaders& shaders,
+                subsurface::CloudCache& clouds, const std::function<void(std::string_view)>& print)
+      : textures(texture_settings(frame.options)), lookups(cloud_lookups(clouds, frame.options)),
+        baked(texture_finder(frame.options)), caches(texture_finder(frame.options)),
+        photons(texture_finder(frame.options)), services(frame, shaders, textures, lookups, baked, print),
+        rays(frame, machine, shaders, services) {
+    services.set_rays(&rays);
+    services.set_irradiance_caches(&caches);
+    services.set_photon_maps(&photons);
+    rays.set_cache_files(&caches);
+    rays.set_photon_maps(&photons);
+  }
+
+  TextureMaps textures;
+  subsurface::CloudLookups lookups;
+  subsurface::BakedClouds baked;
+  CacheFiles caches;
+  PhotonMaps photons;
+  SceneServices services;
+  RayTracer rays;
+};
 
 } // namespace
 
+/// Instead of a picture: Hider "photon".
+void Renderer::Impl::emit_photons(Scene& frame) {
+  make_what_rays_see(frame);
+  BoundShaders shaders(frame, machine, cache, diagnostics);
+  flush();
+  FrameServices all(frame, machine, shaders, clouds, settings.print);
+  all.rays.show_to_photons();
+  PhotonTracer tracer(frame, machine, shaders, all.services, all.rays);
+  const int threads = thread_count(settings.threads > 0 ? settings.threads : frame.options.threads);
+  tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    const PhotonReport report = tracer.run(frame.options.photons);
+    for (const std::string& problem : report.problems)
+      diagnostics.warning({}, "photon", problem);
+    if (settings.photons) settings.photons(report);
+    if (tracer.maps().empty())
+      diagnostics.warning(
+          {}, "photon",
+          "no photon was stored: surfaces need Attribute \"photon\" \"globalmap\" or \"causticmap\"");
+    for (const std::string& problem : tracer.write())
+      diagnostics.error({}, problem);
+  });
+  write_points(all.baked);
+  report_runtime_messages();
+  flush();
+}
+
 void Renderer::Impl::render(Scene& frame) {
   if (frame.options.no_image) return;
+  if (frame.options.photons > 0) return emit_photons(frame);
   if (frame.options.displays.empty()) frame.options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
   FrameSettings s;
   s.threads = settings.threads > 0 ? settings.threads : frame.options.threads;
@@ -121,17 +181,12 @@ void Renderer::Impl::render(Scene& frame) {
   BoundShaders shaders(frame, machine, cache, diagnostics);
   flush();
   if (s.progress) s.progress(0);
-  TextureMaps textures(texture_settings(frame.options));
-  subsurface::CloudLookups lookups = cloud_lookups(clouds, frame.options);
-  subsurface::BakedClouds baked(cloud_finder(frame.options));
-  SceneServices services(frame, shaders, textures, lookups, baked, settings.print);
-  RayTracer rays(frame, machine, shaders, services);
-  services.set_rays(&rays);
-  VmShading shading(machine, shaders, services);
+  FrameServices all(frame, machine, shaders, clouds, settings.print);
+  VmShading shading(machine, shaders, all.services);
   s.make_content = [&](const Procedural& p, float area) {
     SceneContent content = interpreter.make_content(p, area);
     shaders.add(content.primitives);
-    services.add_spaces(content.spaces);
+    all.services.add_spaces(content.spaces);
     return content;
   };
   DepthMask mask;
@@ -150,21 +205,16 @@ void Renderer::Impl::render(Scene& frame) {
     if (std::string why = preview->finish(); !why.empty())
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
-  write_points(baked);
-  report_replaced(textures);
-  for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
-    if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
-      diagnostics.warning(
-          {}, "display",
-          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0", s.aovs[a].name));
-  if (report.bad_colours > 0)
-    diagnostics.warning({}, "nan",
-                        fmt::format("{} shading points have a colour that is not a finite number; "
-                                    "they are drawn black",
-                                    report.bad_colours));
+  write_points(all.baked);
+  report_replaced(all.textures);
+  for (const std::string& problem : all.photons.problems())
+    diagnostics.warning({}, "photon", problem);
+  report_pixels(s, report);
   started = Clock::now();
   for (std::string& name : write_displays(frame, image, s.aovs, diagnostics))
     written.push_back(std::move(name));
+  for (const std::string& problem : all.caches.write())
+    diagnostics.error({}, problem);
   statistics.write_seconds = seconds_since(started);
   if (settings.statistics) {
     const Options& o = frame.options;
@@ -175,8 +225,8 @@ void Renderer::Impl::render(Scene& frame) {
     statistics.height = image.rect.height();
     statistics.samples_per_pixel = o.xsamples * o.ysamples;
     statistics.threads = thread_count(s.threads);
-    auto [files, bytes] = textures.usage();
-    statistics.rays = rays.usage();
+    auto [files, bytes] = all.textures.usage();
+    statistics.rays = all.rays.usage();
     statistics.texture_files = files;
     statistics.texture_bytes = bytes;
     statistics.peak_bytes = peak_memory();
@@ -189,7 +239,8 @@ void Renderer::Impl::render(Scene& frame) {
 void Renderer::Impl::make_what_rays_see(Scene& scene) {
   Camera camera(scene.options);
   for (size_t i = 0; i < scene.procedurals.size();) {
-    if (!scene.procedurals[i].attributes->rays.seen_by_rays()) {
+    const RayAttributes& rays = scene.procedurals[i].attributes->rays;
+    if (!rays.seen_by_rays() && !(scene.options.photons > 0 && rays.photon)) {
       ++i;
       continue;
     }
@@ -240,6 +291,20 @@ void Renderer::Impl::report_runtime_messages() {
 void Renderer::Impl::write_points(subsurface::BakedClouds& baked) {
   for (std::string& problem : baked.finish())
     diagnostics.error({}, std::move(problem));
+}
+
+/// What cannot be right in the picture.
+void Renderer::Impl::report_pixels(const FrameSettings& s, const FrameReport& report) {
+  for (size_t a = 0; a < std::min<size_t>(s.aovs.size(), 64) && report.shaded_grids > 0; ++a)
+    if (s.aovs[a].source == AovChannel::Source::kVariable && !(report.variables >> a & 1))
+      diagnostics.warning(
+          {}, "display",
+          fmt::format("no surface in the picture has a variable \"{}\"; its channels are 0", s.aovs[a].name));
+  if (report.bad_colours > 0)
+    diagnostics.warning({}, "nan",
+                        fmt::format("{} shading points have a colour that is not a finite number; "
+                                    "they are drawn black",
+                                    report.bad_colours));
 }
 
 void Renderer::Impl::report_replaced(TextureMaps& textures) {

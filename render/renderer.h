@@ -21,6 +21,7 @@
 namespace render {
 
 struct FrameStatistics; // render/statistics.h
+struct PhotonReport;    // render/photons/photon_tracer.h
 class Interpreter;      // render/state/interpreter.h
 
 struct RendererSettings {
@@ -46,6 +47,8 @@ struct RendererSettings {
   std::function<void()> flush_messages;
   /// Called after each frame with what it cost.
   std::function<void(const FrameStatistics&)> statistics;
+  /// Called after each frame of photons (Hider "photon"), instead, with what became of them.
+  std::function<void(const PhotonReport&)> photons;
   /// Called after each frame with what plug-ins say of themselves, lines of text, if they do.
   std::function<void(std::string_view)> plugin_statistics;
   /// Output of printf in shaders.

@@ -7,6 +7,8 @@
 #pragma once
 
 #include "slvm/grid.h"
+#include "slvm/irradiance_cache.h"
+#include "slvm/photon_map.h"
 #include "slvm/point_clouds.h"
 #include "slvm/rays.h"
 #include "slvm/subsurface.h"
@@ -79,6 +81,12 @@ public:
 
   /// Who writes and reads files of points for plug-ins; null: nobody, which a run-time message says.
   virtual PointCloudServices* point_clouds() { return nullptr; }
+
+  /// Who keeps irradiance caches; null: nobody, and irradiancecache() finds nothing, with a run-time message.
+  virtual IrradianceCacheServices* irradiance_caches() { return nullptr; }
+
+  /// Who looks up photon maps; null: nobody, and photonmap() is black, with a run-time message.
+  virtual PhotonMapServices* photon_maps() { return nullptr; }
 
   /// Text of printf, in order within one grid, as it is printed. Warnings and errors of running shaders go
   /// another way: MachineOptions::on_message.

@@ -36,7 +36,9 @@ enum RandomPurpose : uint64_t {
   kHits = 10,
   kDisplacedFaces = 11,
   kRayTime = 12,
-  kHemisphere = 13
+  kHemisphere = 13,
+  kPhotonOrigin = 14,
+  kPhotonScattering = 15
 };
 
 } // namespace render

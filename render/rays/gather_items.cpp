@@ -87,7 +87,7 @@ private:
 RayTraits RayGeometry::Gatherer::traits_of(const Primitive& p) {
   const Attributes& a = p.attributes();
   RayTraits t;
-  t.specular = a.rays.specular;
+  t.specular = out_.is_specular(a.rays);
   t.diffuse = a.rays.diffuse;
   t.shadow = a.rays.shadow();
   t.one_sided = a.sides == 1;
@@ -107,7 +107,7 @@ void RayGeometry::Gatherer::find_visible() {
     // Of the two versions of an object between two levels of detail, rays see the one that most samples do.
     // What is cut out of a solid is so whether rays see it or not.
     const bool solid = p.state->solid != nullptr;
-    if (!(solid || p.attributes().rays.seen_by_rays()) || !p.state->level.has(0.5f)) continue;
+    if (!(solid || out_.is_seen_at_all(p.attributes().rays)) || !p.state->level.has(0.5f)) continue;
     Box box = p.camera_bound({});
     if (!is_usable(box)) continue;
     bounds_[i] = box;
@@ -255,7 +255,7 @@ void RayGeometry::Gatherer::add_solid(const std::shared_ptr<const SolidTree>& tr
     solid->bounds[state.solid_primitive].add(bounds_[p]);
     RayTraits own = traits_of(scene_.primitives[p]);
     opaque = opaque && own.shadow == RayOpacity::kOpaque;
-    if (!state.attributes->rays.seen_by_rays()) continue;
+    if (!out_.is_seen_at_all(state.attributes->rays)) continue;
     if (!traits) traits = own;
     traits->specular = traits->specular || own.specular;
     traits->diffuse = traits->diffuse || own.diffuse;

@@ -1,6 +1,7 @@
 // hemisphere(): the surroundings of the points of a grid, at each point by rays or interpolated between few
-// of them.
+// of them, and what is kept of them in files.
 #include "render/rays/hemisphere_cache.h"
+#include "render/rays/hemisphere_file.h"
 #include "render/rays/hemisphere_lattice.h"
 #include "render/rays/hemisphere_records.h"
 #include "render/rays/hemisphere_sampler.h"
@@ -63,10 +64,38 @@ public:
         whole_(query.points == grid_.points()),
         // Of hits only those that count.
         asked_(whole_ ? std::min(query.points, grid_.samples()) : query.points),
-        sampler_(tracer, state, query, max_error_ > 0 && whole_), mask_(query.points / 64 + 1) {}
+        sampler_(tracer, state, query, max_error_ > 0 && whole_),
+        file_(tracer.cache_files_, state, query, tracer.services_, attributes_),
+        mask_(query.points / 64 + 1) {}
 
   std::string run() {
     check_space();
+    if (file_.is_all())
+      take_from_file();
+    else
+      shoot();
+    file_.finish();
+    if (!sampler_.problem().empty()) return sampler_.problem();
+    return file_.problem().empty() ? space_problem_ : file_.problem();
+  }
+
+private:
+  /// Smaller grids are too small to be interpolated in themselves.
+  static constexpr size_t kFewestOfLattice = 64;
+  /// Samples that reach so many pixels for each time they are taken are taken again, as long as all their
+  /// rays together are no more than so many.
+  static constexpr float kPixelsAPass = 7, kMostPasses = 4, kRaysOfPasses = 256;
+
+  void take_from_file() {
+    for (size_t i = 0; i < asked_; ++i) {
+      if (!is_on(query_, i)) continue;
+      const HemispherePoint p = point_of(query_, i);
+      const auto found = is_usable(p) ? file_.find(p, max_error_) : std::nullopt;
+      store_all(i, found.value_or(HemisphereSample()));
+    }
+  }
+
+  void shoot() {
     const bool interpolates = max_error_ > 0 && whole_;
     for (size_t i = 0; i < asked_; ++i) {
       HemispherePoint p = point_of(query_, i);
@@ -76,23 +105,18 @@ public:
       if (is_on(query_, i) && !wanted) store(query_, i, {});
       points_.push_back(p);
     }
-    if (!sampler_.may_shoot()) return "";
+    if (!sampler_.may_shoot()) return;
+    // What is in a file depends on nothing but the scene: there, small grids are lattices, too.
+    const bool lattice = grid_.lattice == slvm::Lattice::kRows && grid_.nu() > 1 && grid_.nv() > 1;
     if (!interpolates)
       sample_all();
-    else if (grid_.lattice == slvm::Lattice::kRows && grid_.points() >= kFewestOfLattice && grid_.nu() > 1 &&
-             grid_.nv() > 1)
+    else if (lattice && (grid_.points() >= kFewestOfLattice || file_.writes()))
       fill_between();
+    else if (file_.writes())
+      sample_all();
     else
       look_up();
-    return sampler_.problem().empty() ? space_problem_ : sampler_.problem();
   }
-
-private:
-  /// Smaller grids are too small to be interpolated in themselves.
-  static constexpr size_t kFewestOfLattice = 64;
-  /// Samples that reach so many pixels for each time they are taken are taken again, as long as all their
-  /// rays together are no more than so many.
-  static constexpr float kPixelsAPass = 7, kMostPasses = 4, kRaysOfPasses = 256;
 
   /// Samples are kept for a frame, in which nothing moves: in one space as in another. It must exist, though.
   void check_space() {
@@ -115,11 +139,29 @@ private:
   float tolerance() const { return 0.1f * max_error_ + 0.3f / std::sqrt(std::max(query_.samples, 1.0f)); }
 
   void sample_all() {
-    std::erase_if(points_, [&](const HemispherePoint& p) { return !wanted(p.number); });
-    std::vector<HemisphereSample> samples(points_.size());
-    sampler_.sample(points_, samples);
-    for (size_t k = 0; k < points_.size(); ++k)
-      store_all(points_[k].number, samples[k]);
+    std::vector<HemispherePoint> wanted_points;
+    std::vector<uint32_t> numbers;
+    for (const HemispherePoint& p : points_)
+      if (wanted(p.number)) {
+        wanted_points.push_back(p);
+        numbers.push_back(p.number);
+      }
+    std::vector<HemisphereSample> samples(numbers.size());
+    sampler_.sample(wanted_points, samples);
+    for (size_t k = 0; k < numbers.size(); ++k)
+      store_all(numbers[k], samples[k]);
+    keep(numbers, samples);
+  }
+
+  /// Hands samples of some points to the file.
+  void keep(std::span<const uint32_t> numbers, std::span<const HemisphereSample> samples) {
+    if (!file_.writes()) return;
+    const bool lattice = grid_.lattice == slvm::Lattice::kRows;
+    const std::vector<float> radii =
+        lattice ? sample_radii(points_, grid_.nu(), grid_.nv(), mask_.data(), numbers)
+                : std::vector<float>(numbers.size());
+    for (size_t k = 0; k < numbers.size(); ++k)
+      file_.keep(points_[numbers[k]], samples[k], radii[k], max_error_ > 0 && whole_);
   }
 
   float pixel_at(Vec3 P) const {
@@ -188,8 +230,19 @@ private:
     problem.tolerance = tolerance();
     float step = primitive ? std::sqrt(primitive->attributes().shading_rate) : 1.0f;
     problem.most_steps = static_cast<int>(std::clamp(most_pixels_ / step, 1.0f, 1e6f));
-    problem.sample = [&](const HemispherePoint& p) { return sample_at(p); };
+    std::vector<uint32_t> taken;
+    std::vector<HemisphereSample> kept;
+    problem.sample = [&](const HemispherePoint& p) {
+      if (auto found = file_.find(p, max_error_)) return *found;
+      const HemisphereSample s = sample_at(p);
+      if (file_.writes()) {
+        taken.push_back(p.number);
+        kept.push_back(s);
+      }
+      return s;
+    };
     std::vector<HemisphereSample> samples = fill_lattice(problem);
+    keep(taken, kept);
     for (size_t i = 0; i < samples.size(); ++i)
       if (wanted(i)) store(query_, i, samples[i]);
   }
@@ -197,7 +250,8 @@ private:
   void look_up() {
     for (const HemispherePoint& p : points_) {
       if (!wanted(p.number)) continue;
-      auto found = tracer_.records_->find(rule_at(p), p.P, p.N);
+      auto found = file_.find(p, max_error_);
+      if (!found) found = tracer_.records_->find(rule_at(p), p.P, p.N);
       store_all(p.number, found ? *found : sample_at(p));
     }
   }
@@ -211,6 +265,7 @@ private:
   bool whole_; ///< all points of the grid are asked for
   size_t asked_;
   HemisphereSampler sampler_;
+  HemisphereFile file_;
   std::vector<HemispherePoint> points_;
   std::vector<uint64_t> mask_; ///< of points that rays are shot for
   std::string space_problem_;

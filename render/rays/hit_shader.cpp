@@ -2,6 +2,7 @@
 #include "render/rays/hit_shader.h"
 
 #include "render/hider/random.h"
+#include "render/photons/photon_maps.h"
 #include "render/shading/default_surface.h"
 
 #include <algorithm>
@@ -46,6 +47,8 @@ public:
   slvm::RayServices* rays() override { return &nothing_; }
   slvm::SubsurfaceServices* subsurface() override { return all_.subsurface(); }
   slvm::PointCloudServices* point_clouds() override { return all_.point_clouds(); }
+  slvm::IrradianceCacheServices* irradiance_caches() override { return all_.irradiance_caches(); }
+  slvm::PhotonMapServices* photon_maps() override { return all_.photon_maps(); }
   void print(const slvm::ShadingState& s, std::string_view text) override { all_.print(s, text); }
 
 private:
@@ -192,10 +195,11 @@ struct HitShader::Work {
   const Primitive* primitive = nullptr;
   slvm::ShaderSet set; ///< those that run
   std::vector<const slvm::Instance*> volumes;
-  bool plain = false;       ///< no shader runs: the look of the primitive
-  bool beside = false;      ///< somebody differentiates
-  bool done_beside = false; ///< nobody differentiates what the surface shader leaves behind
-  bool apart = false;       ///< E is read: hits of rays from different places cannot be shaded together
+  bool plain = false;                 ///< no shader runs: the look of the primitive
+  const PhotonMap* photons = nullptr; ///< or that of photons
+  bool beside = false;                ///< somebody differentiates
+  bool done_beside = false;           ///< nobody differentiates what the surface shader leaves behind
+  bool apart = false; ///< E is read: hits of rays from different places cannot be shaded together
   ReadVariables read;
 
   template <class F> bool any_shader(F&& f) const {
@@ -460,7 +464,10 @@ HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& b
   w.primitive = &primitive;
   const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
   w.set = bound.shaders;
-  w.plain = is_primitive_mode(primitive, batch);
+  if (photon_maps_ && batch.kind == slvm::RayKind::kDiffuse && batch.mode == slvm::HitMode::kDefault &&
+      batch.shades)
+    w.photons = photon_maps_->at_hits(primitive.attributes().rays.global_map);
+  w.plain = w.photons || is_primitive_mode(primitive, batch);
   if (!demand.displacement || w.plain) w.set.displacement = nullptr;
   if (!demand.surface || w.plain) w.set.surface = nullptr;
   if (demand.volumes && !w.plain) w.volumes = possible_volumes(batch.from.shaders, w.set);
@@ -501,6 +508,22 @@ void look_like_primitive(slvm::Grid& grid) {
       Oi[c * grid.pitch() + k] = Os.get(c, k);
       Ci[c * grid.pitch() + k] = Os.get(c, k) * Cs.get(c, k);
     }
+}
+
+/// Ci is what photons near by leave with, on the side that the ray comes from.
+void look_like_photons(slvm::Grid& grid, const PhotonMap& photons, const Matrix4& to_world,
+                       const HitRays& rays, std::span<const HitRay> hits) {
+  float* Ci = grid.varying(Global::kCi);
+  const slvm::Planes &P = grid.variable(Global::kP), &N = grid.variable(Global::kN);
+  for (size_t k = 0; k < hits.size(); ++k) {
+    Vec3 n(N.get(0, k), N.get(1, k), N.get(2, k));
+    if (glm::dot(n, rays.direction(hits[k])) > 0) n = -n;
+    const std::array<float, 3> across = slvm::transform_normal(to_world, {n.x, n.y, n.z});
+    const Color c = photons.radiance(transform_point(to_world, Vec3(P.get(0, k), P.get(1, k), P.get(2, k))),
+                                     glm::normalize(Vec3(across[0], across[1], across[2])));
+    for (int i = 0; i < 3; ++i)
+      Ci[static_cast<size_t>(i) * grid.pitch() + k] = c[i];
+  }
 }
 
 /// Takes the outputs of one kind from a grid: parameters of the shader, predefined variables, primitive
@@ -562,9 +585,10 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
   if (!demand.surface) return;
   grid.neighbours_end = work.done_beside;
   context.shade_surface(set, grid);
-  if (work.plain)
-    look_like_primitive(grid);
-  else if (!set.surface)
+  if (work.plain) look_like_primitive(grid);
+  if (work.photons)
+    look_like_photons(grid, *work.photons, inverse_or_identity(scene_.world_to_camera), batch.rays, hits);
+  else if (!work.plain && !set.surface)
     shade_by_default(grid);
   take(context, grid, set.surface, From::kSurface, hits, outputs);
   if (!work.volumes.empty()) {

@@ -26,6 +26,9 @@ struct HitBatch {
   uint64_t seed = 0;    ///< of the grids' numbers
 };
 
+class PhotonMap;
+class PhotonMaps;
+
 class HitShader final : public Displacer {
 public:
   /// All arguments must outlive this. `services` is what shaders at hits ask; `quiet` the same without rays,
@@ -33,6 +36,10 @@ public:
   HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
             const BoundShaders& shaders, slvm::RendererServices& services);
   ~HitShader() override;
+
+  /// Photon maps that diffuse rays take the light of surfaces from (Attribute "photon" "globalmap"); null:
+  /// none.
+  void set_photon_maps(PhotonMaps* maps) { photon_maps_ = maps; }
 
   /// Shades hits and stores the outputs of each at its ray.
   void shade(std::span<const HitRay> hits, const HitBatch& batch, std::span<const slvm::RayOutput> outputs);
@@ -75,6 +82,7 @@ private:
   const slvm::Machine& machine_;
   const BoundShaders& shaders_;
   slvm::RendererServices& services_;
+  PhotonMaps* photon_maps_ = nullptr;
   std::unique_ptr<slvm::RendererServices> quiet_;
   DiceContext dice_;
   std::mutex workers_mutex_;

@@ -165,7 +165,7 @@ void RayGeometry::find_seen(slvm::RayKind kind, std::string_view subset, Seen& o
     out.surfaces.resize(scene_.primitives.size());
     for (const ItemPart& part : items_[i]->parts) {
       const RayAttributes& a = scene_.primitives[part.primitive].attributes().rays;
-      const bool seen = is_visible(kind, a.specular, a.diffuse, a.shadow()) && is_in(a.groups, subset);
+      const bool seen = is_visible(kind, is_specular(a), a.diffuse, a.shadow()) && is_in(a.groups, subset);
       out.surfaces[part.primitive] = seen;
       out.items[i] = out.items[i] || seen;
     }

@@ -30,6 +30,7 @@ struct RayTraits {
 struct RayGeometrySettings {
   size_t most_bytes = size_t{1} << 30; ///< of faces and hierarchies
   size_t item_faces = size_t{1} << 18; ///< gathered in one item, about
+  bool photons = false; ///< specular rays are photons: they see what Attribute "visibility" shows to these
 };
 
 /// A solid that the primitives of an item bound.
@@ -118,6 +119,10 @@ private:
   const FaceScene* faces(uint32_t item) override;
   void make(Item& item);
   bool is_seen(const Item&, const RayRule&, const RayCrossing&) const;
+  bool is_specular(const RayAttributes& a) const { return settings_.photons ? a.photon : a.specular; }
+  bool is_seen_at_all(const RayAttributes& a) const {
+    return a.seen_by_rays() || (settings_.photons && a.photon);
+  }
   struct Seen {
     std::vector<uint8_t> items;
     std::vector<uint8_t> surfaces; ///< by primitive of the scene; only those of solids are told

@@ -10,6 +10,7 @@
 
 namespace render {
 
+class CacheFiles;
 class HemisphereCache;
 class HemisphereRecords;
 
@@ -22,6 +23,14 @@ public:
 
   /// What grids that are of no primitive of the scene shoot with.
   void set_default_attributes(const RayAttributes& a) { default_attributes_ = a; }
+
+  /// Files that occlusion() and indirectdiffuse() read and write; null: none. They must outlive this.
+  void set_cache_files(CacheFiles* files) { cache_files_ = files; }
+
+  /// Photon maps that diffuse rays take light from; null: none. They must outlive this.
+  void set_photon_maps(PhotonMaps* maps) { hits_.set_photon_maps(maps); }
+  /// Before the first ray: specular rays are photons, by what they see.
+  void show_to_photons() { geometry_settings_.photons = true; }
 
   bool is_empty() override { return geometry().items() == 0; }
   void trace(const slvm::ShadingState& state, const slvm::RayOptions&, const slvm::RayBatch&,
@@ -58,6 +67,7 @@ private:
   slvm::RendererServices& services_;
   Camera camera_;
   HitShader hits_;
+  CacheFiles* cache_files_ = nullptr;
   RayAttributes default_attributes_;
   float min_weight_ = 0, max_depth_ = 10;
   RayGeometrySettings geometry_settings_;

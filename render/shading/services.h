@@ -36,6 +36,12 @@ public:
   slvm::RayServices* rays() override { return rays_; }
   slvm::SubsurfaceServices* subsurface() override { return &subsurface_; }
   slvm::PointCloudServices* point_clouds() override { return &point_clouds_; }
+  slvm::IrradianceCacheServices* irradiance_caches() override { return caches_; }
+  /// Who keeps irradiance caches; null: nobody.
+  void set_irradiance_caches(slvm::IrradianceCacheServices* caches) { caches_ = caches; }
+  slvm::PhotonMapServices* photon_maps() override { return photons_; }
+  /// Who looks up photon maps; null: nobody.
+  void set_photon_maps(slvm::PhotonMapServices* photons) { photons_ = photons; }
   /// Who traces rays, which asks these services in turn.
   void set_rays(slvm::RayServices* rays) { rays_ = rays; }
 
@@ -51,6 +57,8 @@ private:
   slvm::SubsurfaceServices& subsurface_;
   slvm::PointCloudServices& point_clouds_;
   slvm::RayServices* rays_ = nullptr;
+  slvm::IrradianceCacheServices* caches_ = nullptr;
+  slvm::PhotonMapServices* photons_ = nullptr;
   std::function<void(std::string_view)> print_;
   std::mutex print_mutex_;
   mutable std::shared_mutex spaces_mutex_;

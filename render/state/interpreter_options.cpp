@@ -211,9 +211,11 @@ void Interpreter::hider(const RequestCall& call) {
   if (type == "paint")
     warn_once("Hider paint", call.where, "rib-unsupported",
               "Hider \"paint\" is not supported: surfaces hide each other by depth, as by \"hidden\"");
-  else if (type != "hidden" && type != "depthmask" && type != "null")
+  else if (type != "hidden" && type != "depthmask" && type != "null" && type != "photon")
     warn_once("Hider " + type, call.where, "rib-unsupported",
               fmt::format("Hider \"{}\" is not supported yet: \"hidden\" is used", type));
+  constexpr size_t kUsualPhotons = 10000;
+  options_.photons = type == "photon" ? kUsualPhotons : 0;
   options_.no_image = type == "null";
   options_.depth_mask.reset();
   if (type == "depthmask") options_.depth_mask = DepthMaskRequest{{}, false, 0.01f, call.where};
@@ -233,7 +235,9 @@ void Interpreter::hider_parameter(const RequestCall& call, const std::string& na
     return;
   }
   float number = value.numbers[0];
-  if (name == "jitter")
+  if (name == "emit" && options_.photons > 0)
+    options_.photons = static_cast<size_t>(std::clamp(number, 1.0f, 1e9f));
+  else if (name == "jitter")
     options_.jitter = number != 0;
   else if (name == "subpixel")
     options_.subpixel = number != 0;

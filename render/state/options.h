@@ -109,6 +109,7 @@ struct Options {
   bool jitter = true;
   bool subpixel = false;     ///< a pixel of the image for each sample
   bool sample_motion = true; ///< false: what moves is drawn where it is when the shutter opens
+  size_t photons = 0;        ///< Hider "photon": so many are emitted, instead of an image; 0: an image
   bool no_image = false;     ///< Hider "null": nothing is rendered
   DepthFilter depth_filter = DepthFilter::kMin;
   std::optional<DepthMaskRequest> depth_mask;

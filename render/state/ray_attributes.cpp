@@ -78,6 +78,49 @@ std::optional<std::string> set_shade(RayAttributes& a, std::string_view name, co
   return {};
 }
 
+std::string set_text(std::string& out, const slvm::Value& value) {
+  if (value.strings.size() != 1) return "takes one string";
+  out = value.strings[0];
+  return "";
+}
+
+/// By CacheMode.
+constexpr std::string_view kCacheModes[] = {"", "r", "w", "rw", "R"};
+
+std::optional<std::string> set_irradiance(RayAttributes& a, std::string_view name, const slvm::Value& value) {
+  if (name == "maxerror") return set_number(a.max_error, value);
+  if (name == "maxpixeldist") return set_number(a.max_pixel_distance, value);
+  if (name == "handle") return set_text(a.irradiance_file, value);
+  if (name != "filemode") return {};
+  for (size_t i = 0; i < std::size(kCacheModes) && value.strings.size() == 1; ++i)
+    if (value.strings[0] == kCacheModes[i]) {
+      a.irradiance_mode = static_cast<CacheMode>(i);
+      return "";
+    }
+  return "is \"\", \"r\", \"w\", \"rw\" or \"R\"";
+}
+
+/// By PhotonModel.
+constexpr std::string_view kPhotonModels[] = {"matte", "translucent", "chrome",
+                                              "glass", "water",       "transparent"};
+
+std::optional<std::string> set_photon(RayAttributes& a, std::string_view name, const slvm::Value& value) {
+  if (name == "globalmap") return set_text(a.global_map, value);
+  if (name == "causticmap") return set_text(a.caustic_map, value);
+  if (name == "estimator") {
+    if (value.numbers.size() != 1 || !(value.numbers[0] >= 1)) return "takes one number, 1 or more";
+    a.photon_estimator = static_cast<int>(std::min(value.numbers[0], 1e6f));
+    return "";
+  }
+  if (name != "shadingmodel") return {};
+  for (size_t i = 0; i < std::size(kPhotonModels) && value.strings.size() == 1; ++i)
+    if (value.strings[0] == kPhotonModels[i]) {
+      a.photon_model = static_cast<PhotonModel>(i);
+      return "";
+    }
+  return fmt::format("is \"{}\"", fmt::join(kPhotonModels, "\" or \""));
+}
+
 /// "a b" replaces the groups; "+a" joins one, "-a" leaves one.
 std::string set_groups(std::string& groups, const slvm::Value& value) {
   if (value.strings.size() != 1) return "takes one string";
@@ -119,6 +162,12 @@ std::optional<slvm::Value> ray_attribute_value(const RayAttributes& a, std::stri
   if (name == "trace:samplemotion") return number(a.sample_motion);
   if (name == "irradiance:maxerror") return number(a.max_error);
   if (name == "irradiance:maxpixeldist") return number(a.max_pixel_distance);
+  if (name == "irradiance:handle") return text(a.irradiance_file);
+  if (name == "irradiance:filemode") return text(kCacheModes[static_cast<size_t>(a.irradiance_mode)]);
+  if (name == "photon:globalmap") return text(a.global_map);
+  if (name == "photon:causticmap") return text(a.caustic_map);
+  if (name == "photon:shadingmodel") return text(kPhotonModels[static_cast<size_t>(a.photon_model)]);
+  if (name == "photon:estimator") return number(static_cast<float>(a.photon_estimator));
   if (name == "grouping:membership") return text(a.groups);
   return {};
 }
@@ -140,8 +189,8 @@ std::optional<std::string> set_ray_attribute(RayAttributes& a, std::string_view 
   if (category == "trace") return set_trace(a, name, value);
   if (category == "shade") return set_shade(a, name, value);
   if (category == "grouping" && name == "membership") return set_groups(a.groups, value);
-  if (category == "irradiance" && name == "maxerror") return set_number(a.max_error, value);
-  if (category == "irradiance" && name == "maxpixeldist") return set_number(a.max_pixel_distance, value);
+  if (category == "photon") return set_photon(a, name, value);
+  if (category == "irradiance") return set_irradiance(a, name, value);
   return {};
 }
 

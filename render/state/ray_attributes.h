@@ -6,6 +6,7 @@
 #include "slvm/value.h"
 
 #include <compare>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,18 @@ enum class RayOpacity : uint8_t {
   kShader,      ///< 1 - Oi, after its shaders ran
 };
 
+/// How the file of an irradiance cache is used.
+enum class CacheMode : uint8_t {
+  kNone,         ///< "": not at all
+  kSeed,         ///< "r": what it holds is used, the rest is computed
+  kWrite,        ///< "w": begun anew, and written at the end of the frame
+  kSeedAndWrite, ///< "rw": both
+  kOnly,         ///< "R": nothing is computed
+};
+
+/// What a photon does at a surface.
+enum class PhotonModel : uint8_t { kMatte, kTranslucent, kChrome, kGlass, kWater, kTransparent };
+
 struct RayAttributes {
   // "visibility"
   bool camera = true, specular = false, diffuse = false, photon = true;
@@ -32,6 +45,12 @@ struct RayAttributes {
   bool displacements = false, sample_motion = false;
   // "irradiance"
   float max_error = 0.5f, max_pixel_distance = 30;
+  std::string irradiance_file; ///< "handle"
+  CacheMode irradiance_mode = CacheMode::kNone;
+  // "photon"
+  std::string global_map, caustic_map; ///< files
+  PhotonModel photon_model = PhotonModel::kMatte;
+  int photon_estimator = 100; ///< photons that radiance is computed of
   /// "grouping" "membership": names with single spaces between.
   std::string groups;
 

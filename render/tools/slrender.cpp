@@ -1,4 +1,5 @@
 // slrender: reads RIB files and renders every world block in them.
+#include "render/photons/photon_tracer.h"
 #include "render/renderer.h"
 #include "render/ri/plug_in_calls.h"
 #include "render/setup/compiling_loader.h"
@@ -124,6 +125,8 @@ int run(const Arguments& arguments) {
     if (arguments.statistics || s.asked_for) std::fputs(format_text(s).c_str(), stderr);
     statistics += format_json(s) + "\n";
   };
+  if (arguments.statistics)
+    settings.photons = [](const render::PhotonReport& r) { std::fputs(format_text(r).c_str(), stderr); };
   if (arguments.statistics)
     settings.plugin_statistics = [](std::string_view text) {
       std::fwrite(text.data(), 1, text.size(), stderr);

@@ -190,9 +190,8 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
   EXPECT_THAT(messages_of("Frobnicate 1 Frobnicate 2"), HasSubstr("warning: unknown request Frobnicate"));
   EXPECT_THAT(messages_of("Srface \"x\""), HasSubstr("unknown request Srface; did you mean Surface?"));
   EXPECT_EQ(messages_of("Attribute \"trace\" \"bias\" .1"), "");
-  EXPECT_THAT(
-      messages_of("Attribute \"irradiance\" \"handle\" \"a\""),
-      HasSubstr("Attribute \"irradiance\" \"handle\" has no effect: irradiance is not kept in files"));
+  EXPECT_THAT(messages_of("Attribute \"dice\" \"strategy\" \"a\""),
+              HasSubstr("Attribute \"dice\" \"strategy\" has no effect: sizes are measured in the image"));
   EXPECT_THAT(messages_of("Option \"bucket\" \"order\" \"circle\""),
               HasSubstr("Option \"bucket\" \"order\" has no effect: buckets are rendered in rows"));
   EXPECT_THAT(messages_of("Option \"statistics\" \"filename\" \"a\""),
@@ -201,7 +200,7 @@ TEST(Interpreter, requests_without_effect_are_named_once) {
       messages_of("Attribute \"cull\" \"int x\" 1"),
       HasSubstr("Attribute \"cull\" \"x\" is not known and has no effect (shaders can read its value); "
                 "known are hidden, backfacing"));
-  EXPECT_THAT(messages_of("Hider \"photon\""), HasSubstr("Hider \"photon\" is not supported yet"));
+  EXPECT_THAT(messages_of("Hider \"stochastic\""), HasSubstr("Hider \"stochastic\" is not supported yet"));
 }
 
 TEST(Interpreter, error_handlers) {

@@ -24,6 +24,8 @@ std::string request_with(const ParameterInfo& p) {
     value = p.name == "filter"            ? "\"box\""
             : p.name == "sense"           ? "\"outside\""
             : p.name.ends_with("hitmode") ? "\"primitive\""
+            : p.name == "filemode"        ? "\"rw\""
+            : p.name == "shadingmodel"    ? "\"glass\""
                                           : "\"max\"";
   else if (width > 1)
     value = fmt::format("[{}]", fmt::join(std::vector<int>(width, 7), " "));

@@ -30,6 +30,40 @@ void fill(const ShaderRun& run, const GridOperand& out, float value) {
     std::fill_n(out.planes.plane(c), out.planes.step ? run.pitch : kMaxLanes, value);
 }
 
+size_t count_stores(const GridCall& call) {
+  return static_cast<size_t>(std::count_if(call.operands.begin(), call.operands.end(),
+                                           [](const GridOperand& o) { return o.store; }));
+}
+
+void store_planes(const ShaderRun& run, const GridOperand& out, std::span<const float> values) {
+  fill(run, out, 0);
+  for (size_t c = 0; c < static_cast<size_t>(components(out.type)); ++c)
+    mask_for_each(run.mask.current(), run.points,
+                  [&](size_t i) { put(out.planes, c, i, values[c * run.points + i]); });
+}
+
+TokenOutputs::TokenOutputs(const GridCall& call, const CallTokens& tokens) : run_(call.run) {
+  const size_t stores = count_stores(call), points = run_.points;
+  size_t next = 1;
+  tokens.for_each([&](std::string_view name, const GridOperand& before) {
+    const TokenInfo* token = find_token(call.info.signature.token_set, name);
+    if (!token || !token->output || next >= stores) return;
+    const GridOperand& to = call.operands[next++];
+    if (to.array || components(to.type) != components(token->type)) return;
+    TokenOutput& o = list_.emplace_back(TokenOutput{name, &to, {}});
+    // What is not asked for keeps its value.
+    o.values.resize(static_cast<size_t>(components(to.type)) * points);
+    for (size_t c = 0; c < static_cast<size_t>(components(to.type)); ++c)
+      for (size_t i = 0; i < points; ++i)
+        o.values[c * points + i] = before.planes.plane(c)[before.planes.step ? i : 0];
+  });
+}
+
+void TokenOutputs::store() const {
+  for (const TokenOutput& o : list_)
+    store_planes(run_, *o.to, o.values);
+}
+
 CallTokens::CallTokens(const GridCall& call, size_t first) : call_(call) {
   for (size_t i = first; i + 1 < call.operands.size(); i += 2)
     pairs_.emplace_back(text_of(call.run, call.operands[i].planes), &call.operands[i + 1]);

@@ -58,6 +58,33 @@ private:
   std::vector<std::pair<std::string_view, const GridOperand*>> pairs_;
 };
 
+/// A variable that a token names, and what becomes of it.
+struct TokenOutput {
+  std::string_view token;
+  const GridOperand* to = nullptr;
+  std::vector<float> values; ///< component c of point i at [c * points + i]; at first what the variable holds
+};
+
+/// The variables that the tokens of a call name (kTokenOut): those stored operands that follow the
+/// signature's.
+class TokenOutputs {
+public:
+  TokenOutputs(const GridCall& call, const CallTokens& tokens);
+  std::span<TokenOutput> list() { return list_; }
+  std::span<const TokenOutput> list() const { return list_; }
+  /// Gives the variables their values, at active points.
+  void store() const;
+
+private:
+  const ShaderRun& run_;
+  std::vector<TokenOutput> list_;
+};
+
+/// How many of the operands are stored.
+size_t count_stores(const GridCall& call);
+/// Values as those of a TokenOutput, at active points; 0 elsewhere.
+void store_planes(const ShaderRun& run, const GridOperand& out, std::span<const float> values);
+
 /// The text of a string operand, at the first active point.
 std::string_view text_of(const ShaderRun& run, const Operand& o);
 /// The first active point.

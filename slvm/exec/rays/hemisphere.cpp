@@ -19,7 +19,8 @@ constexpr float kHalfPi = std::numbers::pi_v<float> / 2;
 class HemisphereCall {
 public:
   explicit HemisphereCall(const GridCall& call)
-      : call_(call), run_(call.run), stores_(count_stores(call)), tokens_(call, stores_ + 3) {
+      : call_(call), run_(call.run), stores_(count_stores(call)), tokens_(call, stores_ + 3),
+        outputs_(call, tokens_) {
     query_.rays = tokens_.ray_options(RayKind::kDiffuse);
     query_.points = run_.points;
     read_points();
@@ -34,7 +35,7 @@ public:
       each_component([&](size_t c) { query_.radiance[c] = result_.data() + c * run_.points; });
     else
       query_.occlusion = result_.data();
-    for (Output& o : outputs_)
+    for (TokenOutput& o : outputs_.list())
       attach(o);
     RayServices* services = ray_services(run_, call_.code, mask_count(run_.mask.current(), run_.points));
     if (!services) return;
@@ -45,22 +46,11 @@ public:
   }
 
   void store() const {
-    store_planes(call_.operands[0], result_);
-    for (const Output& o : outputs_)
-      store_planes(*o.to, o.values);
+    store_planes(run_, call_.operands[0], result_);
+    outputs_.store();
   }
 
 private:
-  struct Output {
-    std::string_view token;
-    const GridOperand* to = nullptr;
-    std::vector<float> values;
-  };
-
-  static size_t count_stores(const GridCall& call) {
-    return static_cast<size_t>(std::count_if(call.operands.begin(), call.operands.end(),
-                                             [](const GridOperand& o) { return o.store; }));
-  }
   template <class F> static void each_component(F&& f) {
     for (size_t c = 0; c < 3; ++c)
       f(c);
@@ -148,27 +138,9 @@ private:
       run_.report(call_.code, MessageSeverity::kWarning,
                   fmt::format("{}: there are no point clouds here; rays are traced", call_.info.name),
                   mask_count(run_.mask.current(), run_.points));
-    read_outputs();
   }
 
-  // The stored operands behind those of the signature are the variables that tokens name, in their order.
-  void read_outputs() {
-    size_t next = 1;
-    tokens_.for_each([&](std::string_view name, const GridOperand& before) {
-      const TokenInfo* token = find_token(call_.info.signature.token_set, name);
-      if (!token || !token->output || next >= stores_) return;
-      const GridOperand& to = call_.operands[next++];
-      if (to.array || components(to.type) != components(token->type)) return;
-      Output& o = outputs_.emplace_back(Output{name, &to, {}});
-      // What is not asked for keeps its value.
-      o.values.resize(static_cast<size_t>(components(to.type)) * run_.points);
-      for (size_t c = 0; c < static_cast<size_t>(components(to.type)); ++c)
-        for (size_t i = 0; i < run_.points; ++i)
-          o.values[c * run_.points + i] = before.planes.plane(c)[before.planes.step ? i : 0];
-    });
-  }
-
-  void attach(Output& o) {
+  void attach(TokenOutput& o) {
     auto zero = [&] { std::fill(o.values.begin(), o.values.end(), 0.0f); };
     if (o.token == "occlusion") {
       zero();
@@ -186,23 +158,15 @@ private:
     }
   }
 
-  void store_planes(const GridOperand& out, const std::vector<float>& values) const {
-    for (size_t c = 0; c < static_cast<size_t>(components(out.type)); ++c) {
-      std::fill_n(out.planes.plane(c), out.planes.step ? run_.pitch : kMaxLanes, 0.0f);
-      mask_for_each(run_.mask.current(), run_.points,
-                    [&](size_t i) { put(out.planes, c, i, values[c * run_.points + i]); });
-    }
-  }
-
   const GridCall& call_;
   const ShaderRun& run_;
   size_t stores_;
   CallTokens tokens_;
+  TokenOutputs outputs_;
   HemisphereQuery query_;
   std::vector<MaskWord> mask_;
   std::vector<float> position_[3], normal_[3], along_u_[3], along_v_[3], weight_[3];
   std::vector<float> cone_angle_, max_distance_, bias_, sample_base_, result_;
-  std::vector<Output> outputs_;
 };
 
 /// Lookups of a map for one ray of every point, each over the ray's part of the half space.

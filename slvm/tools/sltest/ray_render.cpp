@@ -1,4 +1,6 @@
 // Ray scenes by the renderer: the module sltest_rays.so.
+#include "render/caches/cache_files.h"
+#include "render/photons/photon_maps.h"
 #include "render/rays/ray_tracer.h"
 #include "render/rib/parser.h"
 #include "render/shading/services.h"
@@ -95,11 +97,17 @@ public:
     };
     lookups_ = std::make_unique<subsurface::CloudLookups>(clouds_, find);
     files_ = std::make_unique<subsurface::ReadClouds>(find);
+    caches_ = std::make_unique<render::CacheFiles>(find);
+    photons_ = std::make_unique<render::PhotonMaps>(find);
     services_ = std::make_unique<render::SceneServices>(scene_, *bound_, *textures_, *lookups_, *files_,
                                                         [](std::string_view) {});
     tracer_ = std::make_unique<render::RayTracer>(scene_, *request.machine, *bound_, *services_);
     tracer_->set_default_attributes(own);
+    tracer_->set_cache_files(caches_.get());
+    tracer_->set_photon_maps(photons_.get());
     services_->set_rays(tracer_.get());
+    services_->set_irradiance_caches(caches_.get());
+    services_->set_photon_maps(photons_.get());
     problem_ = format_diagnostics(diagnostics, sources);
   }
 
@@ -107,6 +115,8 @@ public:
   bool option(const ShadingState& state, std::string_view name, Value& out) override {
     return services_->option(state, name, out);
   }
+  IrradianceCacheServices& irradiance_caches() override { return *caches_; }
+  PhotonMapServices& photon_maps() override { return *photons_; }
   const std::string& problem() const override { return problem_; }
 
 private:
@@ -117,6 +127,8 @@ private:
   subsurface::CloudCache clouds_;
   std::unique_ptr<subsurface::CloudLookups> lookups_;
   std::unique_ptr<subsurface::ReadClouds> files_;
+  std::unique_ptr<render::CacheFiles> caches_;
+  std::unique_ptr<render::PhotonMaps> photons_;
   std::unique_ptr<render::SceneServices> services_;
   std::unique_ptr<render::RayTracer> tracer_;
   std::string problem_;

@@ -31,6 +31,9 @@ public:
   virtual RayServices& rays() = 0;
   /// What the scene's options say, defaults included; see RendererServices::option.
   virtual bool option(const ShadingState& state, std::string_view name, Value& out) = 0;
+  /// Files are read; what is inserted is not written.
+  virtual IrradianceCacheServices& irradiance_caches() = 0;
+  virtual PhotonMapServices& photon_maps() = 0;
   /// What is wrong with the RIB, or "".
   virtual const std::string& problem() const = 0;
 };

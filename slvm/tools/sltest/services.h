@@ -66,6 +66,10 @@ public:
   void print(const ShadingState&, std::string_view text) override { printed_ += text; }
   TextureServices* textures() override;
   RayServices* rays() override { return ray_scene_ ? &ray_scene_->rays() : nullptr; }
+  IrradianceCacheServices* irradiance_caches() override {
+    return ray_scene_ ? &ray_scene_->irradiance_caches() : nullptr;
+  }
+  PhotonMapServices* photon_maps() override { return ray_scene_ ? &ray_scene_->photon_maps() : nullptr; }
   SubsurfaceServices* subsurface() override { return scene_.clouds ? &scene_.clouds->lookups : nullptr; }
   PointCloudServices* point_clouds() override { return scene_.clouds ? &scene_.clouds->files : nullptr; }
 
