@@ -63,8 +63,9 @@ TEST_F(MachineTest, WhatTheBuildCannotServeIsNamedAtBinding) {
 
 // Of a surface only some outputs: what they do not need does not run.
 TEST_F(MachineTest, NarrowedSurfacesComputeWhatIsWanted) {
-  const std::string lit = "surface s(float k = 2; output varying float seen = 1) { seen = xcomp(P); printf(\"x\");"
-                          "Oi = k * Os; Ci = Oi * diffuse(N) + trace(P, N); }";
+  const std::string lit =
+      "surface s(float k = 2; output varying float seen = 1) { seen = xcomp(P); printf(\"x\");"
+      "Oi = k * Os; Ci = Oi * diffuse(N) + trace(P, N); }";
   auto all = instantiate(machine, lit, {number("k", 0.25f)});
   const std::vector<std::string> opacity{"Oi"};
   auto narrow = machine.narrowed(*all, opacity);
