@@ -33,8 +33,9 @@ struct Header {
 static_assert(sizeof(Header) == 32);
 
 void put(std::vector<std::byte>& out, const void* data, size_t bytes) {
-  const auto* from = static_cast<const std::byte*>(data);
-  out.insert(out.end(), from, from + bytes);
+  const size_t before = out.size();
+  out.resize(before + bytes);
+  if (bytes) std::memcpy(out.data() + before, data, bytes);
 }
 
 void put_text(std::vector<std::byte>& out, std::string_view text) {
