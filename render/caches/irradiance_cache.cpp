@@ -130,8 +130,7 @@ IrradianceCache::IrradianceCache(std::vector<IrradianceRecord> records) {
 }
 
 std::optional<HemisphereSample> IrradianceCache::find(const Place& place) const {
-  thread_local std::vector<Weighed> near;
-  near.clear();
+  std::vector<Weighed> near;
   auto weigh = [&](const IrradianceRecord& r, float distance2) {
     if ((r.holds & place.wanted) != place.wanted) return;
     const Vec3 way = place.P - r.P;

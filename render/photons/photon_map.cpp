@@ -35,7 +35,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons) {
 }
 
 Color PhotonMap::irradiance(const Place& place) const {
-  thread_local std::vector<subsurface::PointOctree::Near> near;
+  std::vector<subsurface::PointOctree::Near> near;
   tree_.nearest(in_tree(place.P), place.photons + 1, near);
   if (near.empty()) return Color(0);
   // With all photons of the map in it there is none to measure the circle by.
@@ -57,7 +57,7 @@ Color PhotonMap::irradiance(const Place& place) const {
 }
 
 Color PhotonMap::radiance(Vec3 P, Vec3 N) const {
-  thread_local std::vector<subsurface::PointOctree::Near> near;
+  std::vector<subsurface::PointOctree::Near> near;
   // Mostly the first one; behind thin walls those of the other side are as near. On surfaces that have none,
   // as mirrors, there is nothing to be found.
   for (size_t count : {4, 48}) {

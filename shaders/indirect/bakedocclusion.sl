@@ -8,10 +8,10 @@ bakedocclusion(uniform string file = "";       /* an irradiance cache; "": nothi
                uniform string mode = "r";      /* "r" looks up; "w" computes and keeps; "rw" the same, beside what the file holds */
                uniform string space = "world"; /* data are kept in this space, and go where it goes */
                uniform float reference = 0;    /* 1: look up at Pref, where the surface was when they were kept */
-               varying point Pref = 0;
-               uniform float samples = 64;
+               varying point Pref = 0;          /* of the primitive: the same points before they moved, shader space */
+               uniform float samples = 64;     /* rays a point */
                uniform float maxdist = 1e30;   /* things farther away hide nothing */
-               output varying float occluded = 0;
+               output varying float occluded = 0; /* hidden part of the sky, 0 to 1 */
                output varying float known = 1; /* 0: the file holds nothing here */
                )
 {

@@ -113,6 +113,7 @@ protected:
   /// A floor that a disk hangs over, seen from above, in one space of its own.
   std::string under_disk(const std::string& shader, const std::string& attributes, float height = 0.5f) {
     return fmt::format(
+        "Option \"limits\" \"int gridsize\" [256] " // grids are interpolated each by itself
         "WorldBegin Attribute \"visibility\" \"trace\" 1 Attribute \"trace\" \"float bias\" .001 "
         "AttributeBegin Attribute \"visibility\" \"camera\" 0 Surface \"constant\" Color .2 .6 1 "
         "Translate .2 0 {} Disk 0 .5 360 AttributeEnd "

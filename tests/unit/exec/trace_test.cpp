@@ -87,7 +87,6 @@ TEST_F(Trace, RaysThatAreKnownToMeetNothingAreNotMade) {
       "result = comp(transmission(P, P + N, \"samples\", 4, \"samplecone\", 0.1), 1);",
       "result = comp(color environment(\"raytrace\", N), 2);",
       "result = float environment(\"raytrace\"[3], N, \"fill\", 0.25);",
-      "uniform color c = trace(point (0, 0, 0), vector (0, 0, 1)); result = comp(c, 0);",
   };
   for (const char* s : statements) {
     scene_.known_empty = false;

@@ -171,7 +171,9 @@ TEST_F(SubsurfaceCall, OnlyWherePointsAreOnAndOnceWhereAllIsUniform) {
   const auto same = run("uniform point p = point(1, 0, 1); normal n = normal(0, 0, 1); "
                         "Ci = subsurface(p, n, " +
                         named("lit.ply") + ");");
-  EXPECT_THAT(same, Each(got[3]));
+  EXPECT_THAT(same, Each(same[0]));
+  for (int c = 0; c < 3; ++c) // places that are looked up together are summed in another order
+    EXPECT_NEAR(same[0][c], got[3][c], 2e-6f);
 }
 
 // In even light what comes back is the albedo.
