@@ -154,7 +154,7 @@ WindowWeights::AxisTable WindowWeights::axis_table(float width) const {
 }
 
 const float* WindowWeights::at(int x, int y, const SamplePattern& pattern) {
-  constexpr size_t kMost = 1 << 20; // floats
+  constexpr size_t kMost = 1 << 22; // floats: filters of up to 7 by 7 pixels, whatever the number of samples
   const auto period = static_cast<size_t>(pattern.period());
   const size_t count = sum_at() + 1;
   const bool kept = period * period * count <= kMost;
