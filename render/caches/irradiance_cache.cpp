@@ -1,6 +1,7 @@
 // Finding and weighing records. Their files: irradiance_records.cpp.
 #include "render/caches/irradiance_cache.h"
 
+#include "render/caches/in_tree.h"
 #include "render/rays/hemisphere_pattern.h"
 
 #include <algorithm>
@@ -17,10 +18,6 @@ namespace {
 constexpr float kOffSurface = 3;
 /// Records whose normals have less than this with a place's, as a cosine, are of another side.
 constexpr float kLeastFacing = 0.1f;
-
-subsurface::Vec3 in_tree(Vec3 p) {
-  return {p.x, p.y, p.z};
-}
 
 /// Falls smoothly from 1 to 0 between 0 and 1.
 float falling(float x) {

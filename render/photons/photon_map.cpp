@@ -1,5 +1,7 @@
 #include "render/photons/photon_map.h"
 
+#include "render/caches/in_tree.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,10 +14,6 @@ namespace {
 constexpr const char* kKind = "photon map";
 /// Normals with less than this between them, as a cosine, are of other sides or surfaces.
 constexpr float kLeastFacing = 0.5f;
-
-subsurface::Vec3 in_tree(Vec3 p) {
-  return {p.x, p.y, p.z};
-}
 
 bool is_of_side(const Photon& photon, Vec3 N) {
   return N == Vec3(0.0f) || glm::dot(photon.N, N) > kLeastFacing;

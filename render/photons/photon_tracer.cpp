@@ -138,7 +138,8 @@ PhotonReport PhotonTracer::run(size_t photons) {
                            std::max(0.51f * glm::length(box.max - box.min), 1e-6f)};
   std::vector<LightEmission> emissions;
   double all = 0;
-  for (const slvm::Instance* light : lights()) {
+  const std::vector<const slvm::Instance*> instances = lights();
+  for (const slvm::Instance* light : instances) {
     LightEmission& e = emissions.emplace_back(machine_, services_, *light, sphere);
     if (!e.problem().empty())
       report.problems.push_back(fmt::format("light {}: {}", light->program().name, e.problem()));
@@ -160,7 +161,6 @@ PhotonReport PhotonTracer::run(size_t photons) {
       shares.push_back({k, first, std::min(kAtATime, count - first), count});
   }
   std::vector<Batch> batches(shares.size());
-  const std::vector<const slvm::Instance*> instances = lights();
   tbb::parallel_for(size_t{0}, shares.size(), [&](size_t b) {
     const Share& share = shares[b];
     const EmittedPhotons out = emissions[share.light].emit(share.first, share.count, share.of, share.light);

@@ -49,6 +49,8 @@ private:
     if (text_of(run_, operand(1)).empty()) return complain("it needs the name of a file");
     IrradianceCacheServices* services = run_.state.services.irradiance_caches();
     if (!services) return complain("there is nobody here who keeps irradiance caches");
+    if (tokens_.has("maxpixeldist"))
+      complain("\"maxpixeldist\" has no effect: data are as dense as they were kept");
     if (!read_spaces()) return;
     if (inserts)
       insert(*services, mode);

@@ -241,6 +241,12 @@ TEST_F(Bake, mistakes_are_said) {
   shaders_["odd"] = "surface odd() { irradiancecache(\"remove\", \"a\", \"r\", P, N); }";
   render(square("", "Surface \"odd\""));
   EXPECT_THAT(messages_, HasSubstr("irradiancecache: it can \"insert\" or \"query\", not \"remove\""));
+  shaders_["dense"] = "surface dense(string file = \"\") { float o = 0; irradiancecache(\"insert\", file, "
+                      "\"w\", P, normalize(N), \"occlusion\", o, \"maxpixeldist\", 5); }";
+  render(square("", fmt::format("Surface \"dense\" \"string file\" \"{}\"", file("dense.ocf"))));
+  EXPECT_THAT(
+      messages_,
+      HasSubstr("irradiancecache: \"maxpixeldist\" has no effect: data are as dense as they were kept"));
   shaders_["none"] = "surface none() { irradiancecache(\"insert\", \"a\", \"w\", P, N); }";
   render(square("", "Surface \"none\""));
   EXPECT_THAT(

@@ -1,6 +1,9 @@
 // Rays and what they hit: distances, who sees what, how deep rays go, what is told about a hit.
 #include "tests/render/rays/ray_scene.h"
 
+#include "render/texture/image_file.h"
+#include "tests/temp_folder.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,6 +36,33 @@ TEST(Trace, distances_are_those_of_the_surfaces) {
   EXPECT_EQ(s.distance({{}, {0, 0, 1}, 3.9f}), kInfinity) << "maxdist";
   EXPECT_NEAR(s.distance({{}, {0, 0, 1}, 4.1f}), 4, 2e-3f);
   EXPECT_NEAR(s.distance({{}, {0, 0, 1}, kInfinity, 4.5f}), 6, 2e-3f) << "bias";
+}
+
+TEST(Trace, textures_at_hits_are_looked_up_at_their_s_and_t) {
+  anemone::test::TempFolder folder;
+  ImageFile file;
+  file.path = (folder / "ramp.tif").string();
+  file.format = "tiff";
+  file.width = 64;
+  file.height = 1;
+  file.full_width = 64;
+  file.full_height = 1;
+  file.channels = {"R"};
+  for (int x = 0; x < 64; ++x)
+    file.pixels.push_back(static_cast<std::byte>(4 * x));
+  ASSERT_EQ(write_image_file(file), "");
+  // Without coordinates, and with s and t of the shader's own.
+  for (const char* lookup : {"texture(name)", "texture(name, s, t)"}) {
+    RayScene s(world("Surface \"picture\" \"name\" \"" + file.path +
+                     "\" Patch \"bilinear\" \"P\" [-1 -1 5 1 -1 5 -1 1 5 1 1 5]"),
+               {{"picture",
+                 std::string("surface picture(string name = \"\") { Ci = float ") + lookup + "; Oi = 1; }"}});
+    for (float x : {-0.5f, 0.25f, 0.75f}) {
+      std::vector<float> Ci = s.value({{x, 0, 0}}, "surface:Ci", Type::kColor);
+      ASSERT_EQ(Ci.size(), 3u) << lookup << s.messages();
+      EXPECT_NEAR(Ci[0], ((0.5f + 0.5f * x) * 64 - 0.5f) * 4 / 255, 0.005f) << lookup << ' ' << x;
+    }
+  }
 }
 
 TEST(Trace, hits_are_evaluated_where_the_ray_meets_the_surface) {
