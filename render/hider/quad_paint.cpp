@@ -41,13 +41,52 @@ HWY_INLINE WideWeights weights_in(const WideCoverage& in, M& seen) {
   return {hn::IfThenElseZero(in.first, side), hn::IfThenZeroElse(in.first, side), hn::Mul(of_d, scale)};
 }
 
+/// Paints the samples of vectors that one micropolygon covers.
+class Painter {
+public:
+  Painter(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas)
+      : nu_(static_cast<size_t>(grid.nu)), smooth_(grid.smooth), values_(values), canvas_(canvas) {}
+  /// How many had no surface before.
+  size_t covered_first() const { return covered_first_; }
+
+  /// `k`: the micropolygon's first corner.
+  template <class Samples>
+  HWY_INLINE void paint(const Samples& samples, const WideQuad& quad, const WideCoverage& in, size_t k) {
+    M seen = hn::Or(in.first, in.second);
+    const WideWeights weights = weights_in(in, seen);
+    const V z = weights.blend(quad.z[0], quad.z[1], quad.z[2], quad.z[3]), before = samples.load(canvas_.z);
+    const M between =
+        hn::And(hn::Ge(z, hn::Set(kWide, canvas_.near_plane)), hn::Le(z, hn::Set(kWide, canvas_.far_plane)));
+    seen = hn::And(hn::And(seen, hn::Lt(z, before)), between);
+    if (hn::AllFalse(kWide, seen)) return;
+    samples.store(hn::IfThenElse(seen, z, before), canvas_.z);
+    covered_first_ += hn::CountTrue(kWide, hn::And(seen, hn::Eq(before, hn::Set(kWide, kInfinity))));
+    for (const PaintedValues& v : values_) {
+      const float* own = v.values + k * v.stride;
+      for (float* plane : v.planes) {
+        V value = hn::Set(kWide, own[0]);
+        if (smooth_)
+          value = weights.blend(value, hn::Set(kWide, own[v.stride]), hn::Set(kWide, own[nu_ * v.stride]),
+                                hn::Set(kWide, own[(nu_ + 1) * v.stride]));
+        samples.store(hn::IfThenElse(seen, value, samples.load(plane)), plane);
+        ++own;
+      }
+    }
+  }
+
+private:
+  size_t nu_;
+  bool smooth_;
+  std::span<const PaintedValues> values_;
+  const SampleCanvas& canvas_;
+  size_t covered_first_ = 0;
+};
+
 size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas) {
   const auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv),
              width = static_cast<size_t>(canvas.width);
   const Vec2 origin(static_cast<float>(canvas.covered.x0), static_cast<float>(canvas.covered.y0));
-  const V infinite = hn::Set(kWide, kInfinity), near_plane = hn::Set(kWide, canvas.near_plane),
-          far_plane = hn::Set(kWide, canvas.far_plane);
-  size_t covered_first = 0;
+  Painter painter(grid, values, canvas);
   for (size_t j = 0, m = 0; j + 1 < nv; ++j) {
     if (!grid.rows.empty() && !grid.rows[j].touches(canvas.covered)) {
       m += nu - 1;
@@ -64,32 +103,11 @@ size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values,
                        canvas.height, window))
         continue;
       for_covered(p, canvas.x, canvas.y, width, window,
-                  [&](const auto& rows, const WideQuad& quad, const WideCoverage& in) HWY_ATTR {
-                    M seen = hn::Or(in.first, in.second);
-                    const WideWeights weights = weights_in(in, seen);
-                    const V z = weights.blend(quad.z[0], quad.z[1], quad.z[2], quad.z[3]),
-                            before = rows.load(canvas.z);
-                    seen = hn::And(hn::And(seen, hn::Lt(z, before)),
-                                   hn::And(hn::Ge(z, near_plane), hn::Le(z, far_plane)));
-                    if (hn::AllFalse(kWide, seen)) return;
-                    rows.store(hn::IfThenElse(seen, z, before), canvas.z);
-                    covered_first += hn::CountTrue(kWide, hn::And(seen, hn::Eq(before, infinite)));
-                    for (const PaintedValues& v : values) {
-                      const float* own = v.values + k * v.stride;
-                      for (float* plane : v.planes) {
-                        V value = hn::Set(kWide, own[0]);
-                        if (grid.smooth)
-                          value = weights.blend(value, hn::Set(kWide, own[v.stride]),
-                                                hn::Set(kWide, own[nu * v.stride]),
-                                                hn::Set(kWide, own[(nu + 1) * v.stride]));
-                        rows.store(hn::IfThenElse(seen, value, rows.load(plane)), plane);
-                        ++own;
-                      }
-                    }
-                  });
+                  [&](const auto& samples, const WideQuad& quad, const WideCoverage& in)
+                      HWY_ATTR { painter.paint(samples, quad, in, k); });
     }
   }
-  return covered_first;
+  return painter.covered_first();
 }
 
 } // namespace HWY_NAMESPACE
