@@ -60,35 +60,44 @@ void Writer::describe(ImageFile& file, const std::vector<FileChannel>& channels)
   std::copy_n(to_screen.m.data(), 16, file.world_to_screen.begin());
 }
 
+/// `count` values of a channel, `from_step` and `to_step` apart.
+template <class T>
+void pack_channel(const float* from, size_t from_step, T* to, size_t to_step, size_t count) {
+  for (size_t k = 0; k < count; ++k)
+    to[k * to_step] = static_cast<T>(from[k * from_step]);
+}
+
 template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileChannel>& channels) const {
   const PixelRect& r = image_.rect;
-  std::vector<std::byte> out(static_cast<size_t>(r.width()) * static_cast<size_t>(r.height()) *
-                             channels.size() * sizeof(T));
-  struct Source {
-    int channel;
-    bool as_it_is;
-    Quantizer quantizer;
-  };
-  std::vector<Source> sources;
-  for (const FileChannel& c : channels)
-    sources.push_back({c.source, std::is_same_v<T, float> && c.quantization.is_float(),
-                       Quantizer(c.quantization, c.source)});
-  std::byte* at = out.data();
-  for (int y = r.y0; y < r.y1; ++y) {
-    const float* pixel = image_.pixel(r.x0, y);
-    for (int x = r.x0; x < r.x1; ++x, pixel += image_.channels) {
-      int group = -1;
-      uint64_t hash = 0;
-      for (const Source& s : sources) {
-        if (const int own = Quantizer::group_of(s.channel); own != group) {
-          group = own;
-          hash = Quantizer::hash(x, y, group);
-        }
-        const float v = pixel[s.channel];
-        const T value = s.as_it_is ? static_cast<T>(v) : static_cast<T>(s.quantizer(v, hash));
-        std::memcpy(at, &value, sizeof(T));
-        at += sizeof(T);
+  const auto width = static_cast<size_t>(r.width()), pixel = static_cast<size_t>(image_.channels);
+  std::vector<std::byte> out(width * static_cast<size_t>(r.height()) * channels.size() * sizeof(T));
+  auto* row = reinterpret_cast<T*>(out.data());
+  std::vector<float> values(width);
+  std::vector<int> whole(width);
+  std::vector<uint64_t> hashes(width);
+  for (int y = r.y0; y < r.y1; ++y, row += width * channels.size()) {
+    int group = -1;
+    for (size_t c = 0; c < channels.size(); ++c) {
+      const int source = channels[c].source;
+      const float* from = image_.pixel(r.x0, y) + source;
+      if (std::is_same_v<T, float> && channels[c].quantization.is_float()) {
+        pack_channel(from, pixel, row + c, channels.size(), width);
+        continue;
       }
+      if (const int own = Quantizer::group_of(source); own != group) {
+        group = own;
+        for (size_t k = 0; k < width; ++k)
+          hashes[k] = Quantizer::hash(r.x0 + static_cast<int>(k), y, group);
+      }
+      // The quantizer's loop runs in vectors, as the values lie side by side.
+      const Quantizer quantize(channels[c].quantization, source);
+      pack_channel(from, pixel, values.data(), 1, width);
+      for (size_t k = 0; k < width; ++k)
+        whole[k] = quantize.bits(hashes[k]);
+      for (size_t k = 0; k < width; ++k)
+        whole[k] = quantize(values[k], whole[k]);
+      for (size_t k = 0; k < width; ++k)
+        row[k * channels.size() + c] = static_cast<T>(whole[k]);
     }
   }
   return out;

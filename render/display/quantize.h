@@ -21,40 +21,42 @@ public:
   Quantizer(const Quantization& q, int channel)
       : zero_(static_cast<float>(q.zero)), one_(static_cast<float>(q.one)),
         range_(static_cast<float>(q.one - q.zero)), least_(static_cast<float>(q.min)),
-        most_(static_cast<float>(q.max)), min_(q.min), max_(q.max), dither_(q.dither),
-        shift_(kBits * (channel % 3)) {}
+        most_(static_cast<float>(q.max)), dither_(q.dither), shift_(kBits * (channel % 3)),
+        clean_(q.dither <= 0.5f) {}
 
-  /// `hash` is that of the pixel and the channel's group.
-  int operator()(float value, uint64_t hash) const {
-    float scaled = zero_ + range_ * value;
+  /// The channel's bits of the hash of the pixel and the channel's group.
+  int32_t bits(uint64_t hash) const { return static_cast<int32_t>(hash >> shift_ & ((1u << kBits) - 1)); }
+  /// Without branches, for loops in vectors.
+  int operator()(float value, int32_t bits) const {
+    const float scaled = zero_ + range_ * value;
+    const float noise = static_cast<float>(bits) * (2.0f / (1 << kBits)) - 1;
     // Whole numbers, such as those of backgrounds, come back from so little noise.
-    if (dither_ <= 0.5f && (scaled == zero_ || scaled == one_)) return limited(scaled);
-    const auto bits = static_cast<int32_t>(hash >> shift_ & ((1u << kBits) - 1));
-    return limited(scaled + dither_ * (static_cast<float>(bits) * (2.0f / (1 << kBits)) - 1));
+    const bool whole = clean_ & ((scaled == zero_) | (scaled == one_));
+    return limited(scaled + noise * (whole ? 0 : dither_));
   }
 
 private:
   static constexpr int kBits = 21;
 
   int limited(float v) const {
-    // The negated test sends what is not a number to the minimum.
-    if (!(v > least_)) return min_;
-    if (v >= most_) return max_;
+    // What is not a number goes to the minimum.
+    v = v > least_ ? v : least_;
+    v = v < most_ ? v : most_;
     // std::round, which is a call on processors without SSE 4.1.
-    int whole = static_cast<int>(v);
-    float rest = v - static_cast<float>(whole);
+    const int whole = static_cast<int>(v);
+    const float rest = v - static_cast<float>(whole);
     return whole + (rest >= 0.5f) - (rest <= -0.5f);
   }
 
-  float zero_, one_, range_, least_, most_;
-  int min_, max_;
-  float dither_;
+  float zero_, one_, range_, least_, most_, dither_;
   int shift_;
+  bool clean_;
 };
 
 /// One value.
 inline int quantize(float value, const Quantization& q, int x, int y, int channel) {
-  return Quantizer(q, channel)(value, Quantizer::hash(x, y, Quantizer::group_of(channel)));
+  const Quantizer quantizer(q, channel);
+  return quantizer(value, quantizer.bits(Quantizer::hash(x, y, Quantizer::group_of(channel))));
 }
 
 } // namespace render

@@ -1,4 +1,4 @@
-// Weighted means of samples, always summed in the order of the frame's rows: a pixel does not depend on the
+// Weighted means of samples, always summed in the order of the window's rows: a pixel does not depend on the
 // bucket that makes it.
 #include "render/hider/reconstruct.h"
 
@@ -24,7 +24,7 @@ SampleSpan filled(const BucketSamples& samples, size_t j0, size_t j1) {
 } // namespace
 
 Reconstructor::Reconstructor(const ReconstructionSettings& settings, const SampleGridSize& size)
-    : settings_(settings), size_(size) {
+    : settings_(settings), size_(size), columns_(size) {
   Plan& standard = plans_.emplace_back(settings_.filter, WindowWeights(settings_.filter, size_));
   // Depths are not blended.
   for (size_t c = 0; c < Image::kZ; ++c)
@@ -60,9 +60,25 @@ void Reconstructor::run(const BucketSamples& samples, Image& image) {
     copy_samples(samples, image);
     return;
   }
+  columns_.begin(samples.covered);
   for (Plan& plan : plans_)
     filter(plan, samples, image);
   set_depths(samples, image);
+}
+
+template <class F> void Reconstructor::for_runs(const PixelRect& rect, F&& f) {
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0, end; x < rect.x1; x = end) {
+      end = std::min(SampleColumns::block_of(x) + SampleColumns::kBlock, rect.x1);
+      f(Run{x, end, y});
+    }
+}
+
+/// `values`: of the run's block.
+void Reconstructor::set(Image& image, const Run& run, size_t channel, const float* values) {
+  float* to = image.pixel(run.x0, run.y) + channel;
+  for (int x = run.x0; x < run.x1; ++x, to += image.channels)
+    *to = values[x - run.block()];
 }
 
 void Reconstructor::filter(Plan& plan, const BucketSamples& samples, Image& image) {
@@ -70,102 +86,81 @@ void Reconstructor::filter(Plan& plan, const BucketSamples& samples, Image& imag
   sources_.clear();
   source_of_.clear();
   for (const Term& t : plan.terms) {
-    auto source = std::find(sources_.begin(), sources_.end(), samples.planes[t.plane]);
+    const float* plane = columns_.sorted(samples.planes[t.plane]);
+    auto source = std::find(sources_.begin(), sources_.end(), plane);
     source_of_.push_back(static_cast<size_t>(source - sources_.begin()));
-    if (source == sources_.end()) sources_.push_back(samples.planes[t.plane]);
+    if (source == sources_.end()) sources_.push_back(plane);
   }
-  while (sources_.size() % FilterWindow::kLanes != 0)
+  while (sources_.size() % WindowWeights::kPlanes != 0)
     sources_.push_back(sources_[0]);
-  means_.resize(sources_.size());
-  const PixelRect& rect = samples.rect;
+  at_.resize(sources_.size());
+  means_.resize(sources_.size() * SampleColumns::kBlock);
   const FilterWindow& window = plan.weights.window();
-  const auto width = static_cast<std::ptrdiff_t>(samples.pattern.width());
-  for (int y = rect.y0; y < rect.y1; ++y) {
-    const std::ptrdiff_t row = (y - samples.covered.y0) * size_.ysamples + window.j0;
+  offsets_.clear();
+  for (int j = window.j0; j < window.j1; ++j)
+    for (int i = window.i0; i < window.i1; ++i)
+      offsets_.push_back(columns_.offset(i, j));
+  for_runs(samples.rect, [&](const Run& run) {
+    // Rows and columns of samples that the filters of the run reach. Beyond a narrow margin there are none.
+    const int row = (run.y - samples.covered.y0) * size_.ysamples + window.j0;
+    const int column = (run.x0 - samples.covered.x0) * size_.xsamples + window.i0;
+    const int columns = (run.x1 - run.x0 - 1) * size_.xsamples + window.i1 - window.i0;
     const SampleSpan any =
         filled(samples, static_cast<size_t>(row), static_cast<size_t>(row) + window.rows());
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      float* p = image.pixel(x, y);
-      const std::ptrdiff_t column = (x - samples.covered.x0) * size_.xsamples + window.i0;
-      if (!any.overlaps(static_cast<size_t>(column), static_cast<size_t>(column) + window.columns())) {
-        for (const Term& t : plan.terms)
-          p[t.channel] = 0;
-        continue;
-      }
-      const float* weights = plan.weights.at(x, y, samples.pattern);
-      // A filter so narrow that it missed all samples: the plain mean of the pixel.
-      if (plan.weights.missed_all(weights)) {
-        plain_mean(plan, samples, x, y, p);
-        continue;
-      }
-      plan.weights.means(sources_, static_cast<size_t>(row * width + column), static_cast<size_t>(width),
-                         weights, means_.data());
-      for (size_t t = 0; t < plan.terms.size(); ++t)
-        p[plan.terms[t].channel] = means_[source_of_[t]];
+    if (any.overlaps(static_cast<size_t>(column), static_cast<size_t>(column + columns))) {
+      const std::ptrdiff_t place = columns_.place(run.block(), run.y);
+      for (size_t s = 0; s < at_.size(); ++s)
+        at_[s] = sources_[s] + place;
+      WindowWeights::means(at_, offsets_, plan.weights.at(run.block(), run.y, samples.pattern),
+                           means_.data());
+    } else {
+      std::fill(means_.begin(), means_.end(), 0.0f);
     }
-  }
+    for (size_t t = 0; t < plan.terms.size(); ++t)
+      set(image, run, plan.terms[t].channel, means_.data() + source_of_[t] * SampleColumns::kBlock);
+  });
 }
 
-void Reconstructor::plain_mean(const Plan& plan, const BucketSamples& samples, int x, int y,
-                               float* pixel) const {
-  const auto width = static_cast<size_t>(samples.pattern.width());
-  const auto columns = static_cast<size_t>(size_.xsamples), rows = static_cast<size_t>(size_.ysamples);
-  for (const Term& t : plan.terms) {
-    const float* first = samples.planes[t.plane] + sample(samples, x, y);
-    float sum = 0;
-    for (size_t j = 0; j < rows; ++j)
-      for (size_t i = 0; i < columns; ++i)
-        sum += first[j * width + i];
-    pixel[t.channel] = sum / static_cast<float>(rows * columns);
-  }
+void Reconstructor::set_depths(const BucketSamples& samples, Image& image) {
+  offsets_.clear();
+  for (int j = 0; j < size_.ysamples; ++j)
+    for (int i = 0; i < size_.xsamples; ++i)
+      offsets_.push_back(columns_.offset(i, j));
+  const float* z = columns_.sorted(samples.planes[Image::kZ]);
+  float depths[SampleColumns::kBlock];
+  for_runs(samples.rect, [&](const Run& run) {
+    find_depths(z + columns_.place(run.block(), run.y), depths);
+    set(image, run, Image::kZ, depths);
+    for (const AovChannel& a : settings_.aovs)
+      if (a.source == AovChannel::Source::kDepth)
+        set(image, run, static_cast<size_t>(Image::kAov + a.first), depths);
+  });
 }
 
-void Reconstructor::set_depths(const BucketSamples& samples, Image& image) const {
-  const PixelRect& rect = samples.rect;
-  const auto width = static_cast<size_t>(samples.pattern.width());
-  auto columns = static_cast<size_t>(size_.xsamples), rows = static_cast<size_t>(size_.ysamples);
-  for (int y = rect.y0; y < rect.y1; ++y) {
-    size_t row = static_cast<size_t>(y - samples.covered.y0) * rows;
-    const SampleSpan any = filled(samples, row, row + rows);
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      size_t column = static_cast<size_t>(x - samples.covered.x0) * columns;
-      const float* first = samples.planes[Image::kZ] + row * width + column;
-      float z = any.overlaps(column, column + columns) ? depth(first, width) : Image::kEmptyDepth;
-      float* p = image.pixel(x, y);
-      p[Image::kZ] = z;
-      for (const AovChannel& a : settings_.aovs)
-        if (a.source == AovChannel::Source::kDepth) p[Image::kAov + a.first] = z;
-    }
-  }
-}
-
-/// From the pixel's own samples, the first at `z`: those without a surface do not count unless all are so.
-float Reconstructor::depth(const float* z, size_t width) const {
-  const auto columns = static_cast<size_t>(size_.xsamples), rows = static_cast<size_t>(size_.ysamples);
-  auto for_each = [&](auto&& f) {
-    for (size_t j = 0; j < rows; ++j)
-      for (size_t i = 0; i < columns; ++i)
-        f(z[j * width + i]);
-  };
-  float best = kInfinity;
-  for_each([&](float at) { best = std::min(best, at); });
-  if (best == kInfinity) return Image::kEmptyDepth;
-  if (settings_.depth_filter == DepthFilter::kMax) {
-    float most = -kInfinity;
-    for_each([&](float at) { most = at == kInfinity ? most : std::max(most, at); });
-    return most;
-  }
-  if (settings_.depth_filter == DepthFilter::kAverage) {
+/// Of a block, from the pixels' own samples, at `z` and the offsets: those without a surface do not count
+/// unless all are so. Loops over lanes are the inner ones, for the compiler to use vectors.
+void Reconstructor::find_depths(const float* z, float* out) const {
+  constexpr size_t kBlock = SampleColumns::kBlock;
+  const bool most = settings_.depth_filter == DepthFilter::kMax,
+             mean = settings_.depth_filter == DepthFilter::kAverage;
+  std::fill_n(out, kBlock, kInfinity);
+  for (std::ptrdiff_t offset : offsets_)
+    for (size_t k = 0; k < kBlock; ++k)
+      out[k] = std::min(out[k], z[offset + static_cast<std::ptrdiff_t>(k)]);
+  for (size_t k = 0; (most || mean) && k < kBlock; ++k) {
     double sum = 0;
     int count = 0;
-    for_each([&](float at) {
-      if (at == kInfinity) return;
+    for (std::ptrdiff_t offset : offsets_) {
+      const float at = z[offset + static_cast<std::ptrdiff_t>(k)];
+      if (at == kInfinity) continue;
+      if (most) out[k] = std::max(out[k], at);
       sum += static_cast<double>(at);
       ++count;
-    });
-    return static_cast<float>(sum / count);
+    }
+    if (mean && count > 0) out[k] = static_cast<float>(sum / count);
   }
-  return best;
+  for (size_t k = 0; k < kBlock; ++k)
+    out[k] = out[k] == kInfinity ? Image::kEmptyDepth : out[k];
 }
 
 void Reconstructor::copy_samples(const BucketSamples& samples, Image& image) const {

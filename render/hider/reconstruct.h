@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/hider/image.h"
+#include "render/hider/sample_columns.h"
 #include "render/hider/sample_pattern.h"
 #include "render/hider/window_weights.h"
 #include "render/state/options.h"
@@ -63,11 +64,17 @@ private:
     WindowWeights weights;
     std::vector<Term> terms;
   };
+  /// Pixels of a row that are in the same block.
+  struct Run {
+    int x0, x1, y;
+    int block() const { return SampleColumns::block_of(x0); }
+  };
+  template <class F> static void for_runs(const PixelRect& rect, F&& f);
   void plan_aovs();
   void filter(Plan& plan, const BucketSamples& samples, Image& image);
-  void plain_mean(const Plan& plan, const BucketSamples& samples, int x, int y, float* pixel) const;
-  void set_depths(const BucketSamples& samples, Image& image) const;
-  float depth(const float* z, size_t width) const;
+  static void set(Image& image, const Run& run, size_t channel, const float* values);
+  void set_depths(const BucketSamples& samples, Image& image);
+  void find_depths(const float* z, float* out) const;
   void copy_samples(const BucketSamples& samples, Image& image) const;
   /// The number of the pixel's first sample.
   size_t sample(const BucketSamples& samples, int x, int y) const {
@@ -78,10 +85,13 @@ private:
 
   ReconstructionSettings settings_;
   SampleGridSize size_;
-  std::vector<Plan> plans_;           ///< the first is that of the standard channels
-  std::vector<const float*> sources_; ///< the planes of a plan, each once, and what fills up a vector
-  std::vector<size_t> source_of_;     ///< for each term
-  std::vector<float> means_;          ///< for each source
+  SampleColumns columns_;
+  std::vector<Plan> plans_;             ///< the first is that of the standard channels
+  std::vector<const float*> sources_;   ///< the sorted planes of a plan, each once; filled up to kPlanes
+  std::vector<const float*> at_;        ///< the same, at the place of a block
+  std::vector<size_t> source_of_;       ///< for each term
+  std::vector<std::ptrdiff_t> offsets_; ///< of the samples of a window, or of a pixel
+  std::vector<float> means_;            ///< for each source, of a block
 };
 
 /// The image's pixels of `rect`, which are samples with "subpixel", where nothing is.

@@ -65,10 +65,16 @@ int wrapped(int i, int size) {
 
 } // namespace
 
-Vec2 SamplePattern::jitter(int column, int row) const {
-  int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
-  auto k = static_cast<size_t>(wrapped(row, rows) * columns + wrapped(column, columns));
-  return {jitter_x_[k], jitter_y_[k]};
+void SamplePattern::jitter(std::span<float> x, std::span<float> y, int column, int row) const {
+  const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
+  const auto first = static_cast<size_t>(wrapped(row, rows) * columns);
+  int at = wrapped(column, columns);
+  for (size_t k = 0; k < x.size(); ++k) {
+    x[k] = jitter_x_[first + static_cast<size_t>(at)];
+    y[k] = jitter_y_[first + static_cast<size_t>(at)];
+    at += size_.xsamples;
+    if (at >= columns) at -= columns;
+  }
 }
 
 void SamplePattern::cover(PixelRect area) {

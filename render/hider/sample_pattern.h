@@ -7,6 +7,7 @@
 #include "render/state/camera.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace render {
@@ -30,8 +31,9 @@ public:
 
   /// The jitter of positions repeats itself every so many pixels in x and y: a power of two.
   int period() const { return period_; }
-  /// Where in its cell the sample in that column and row of the frame lies, [0, 1).
-  Vec2 jitter(int column, int row) const;
+  /// Where in their cells, [0, 1), samples of pixels beside each other lie: the first is in that column and
+  /// row of the frame, the others follow at distances of a pixel.
+  void jitter(std::span<float> x, std::span<float> y, int column, int row) const;
 
   int width() const { return width_; } ///< samples in a row
   int height() const { return height_; }

@@ -29,7 +29,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr hn::ScalableTag<float> kWide;
+constexpr hn::CappedTag<float, WindowWeights::kBlock> kWide;
+constexpr size_t kLanes = hn::MaxLanes(kWide);
 using V = hn::Vec<decltype(kWide)>;
 
 HWY_INLINE V place_on(const Axis& axis, V at) {
@@ -45,9 +46,9 @@ HWY_INLINE V weight_on(const Axis& axis, V at) {
   return hn::IfThenElseZero(hn::Le(place, last), weight);
 }
 
-/// For `count` samples. Reads and writes up to a vector beyond the last.
+/// For `count` samples, whole blocks.
 void separable(const Axis& x, const Axis& y, const float* at_x, const float* at_y, size_t count, float* out) {
-  for (size_t k = 0; k < count; k += hn::Lanes(kWide))
+  for (size_t k = 0; k < count; k += kLanes)
     hn::StoreU(hn::Mul(weight_on(x, hn::LoadU(kWide, at_x + k)), weight_on(y, hn::LoadU(kWide, at_y + k))),
                kWide, out + k);
 }
@@ -55,60 +56,30 @@ void separable(const Axis& x, const Axis& y, const float* at_x, const float* at_
 /// The same of e^(-2 (x^2 + y^2)).
 void gaussian(const Axis& x, const Axis& y, const float* at_x, const float* at_y, size_t count, float* out) {
   const V one = hn::Set(kWide, 1.0f), power = hn::Set(kWide, -2.0f);
-  for (size_t k = 0; k < count; k += hn::Lanes(kWide)) {
+  for (size_t k = 0; k < count; k += kLanes) {
     V px = place_on(x, hn::LoadU(kWide, at_x + k)), py = place_on(y, hn::LoadU(kWide, at_y + k));
     V weight = hn::Exp(kWide, hn::Mul(power, hn::Add(hn::Mul(px, px), hn::Mul(py, py))));
     hn::StoreU(hn::IfThenElseZero(hn::Le(hn::Max(px, py), one), weight), kWide, out + k);
   }
 }
 
-constexpr hn::CappedTag<float, FilterWindow::kLanes> kFour;
-using V4 = hn::Vec<decltype(kFour)>;
-
-/// The sums of the lanes of four vectors.
-HWY_INLINE V4 sums_of(const V4 (&v)[4]) {
-#if HWY_TARGET == HWY_SCALAR
-  return v[0];
-#else
-  auto pairs = [](V4 a, V4 b) HWY_ATTR {
-    return hn::Add(hn::InterleaveLower(kFour, a, b), hn::InterleaveUpper(kFour, a, b));
-  };
-  const V4 ab = pairs(v[0], v[1]), cd = pairs(v[2], v[3]);
-  return hn::Add(hn::ConcatLowerLower(kFour, cd, ab), hn::ConcatUpperUpper(kFour, cd, ab));
-#endif
-}
-
-/// Weighted sums of four planes, or of as many as a vector has lanes.
-void weigh(const float* const* planes, size_t first, size_t width, const FilterWindow& window,
-           const float* weights, float* out) {
-  constexpr size_t kStep = hn::MaxLanes(kFour);
-  const size_t columns = window.columns(), whole = columns / kStep * kStep, left = columns - whole;
-  const auto rest = hn::FirstN(kFour, left);
-  V4 sums[4] = {hn::Zero(kFour), hn::Zero(kFour), hn::Zero(kFour), hn::Zero(kFour)};
-  for (size_t j = 0; j < window.rows(); ++j, first += width, weights += window.stride()) {
-    for (size_t i = 0; i < whole; i += kStep) {
-      const V4 w = hn::LoadU(kFour, weights + i);
-      for (size_t p = 0; p < kStep; ++p)
-        sums[p] = hn::Add(sums[p], hn::Mul(w, hn::LoadU(kFour, planes[p] + first + i)));
+void mean(std::span<const float* const> planes, std::span<const std::ptrdiff_t> offsets, const float* weights,
+          float* out) {
+  constexpr size_t kPlanes = WindowWeights::kPlanes, kBlock = WindowWeights::kBlock;
+  const float* totals = weights + kBlock * offsets.size();
+  for (size_t p = 0; p < planes.size(); p += kPlanes, out += kPlanes * kBlock)
+    for (size_t lane = 0; lane < kBlock; lane += kLanes) {
+      V sums[kPlanes] = {hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide)};
+      const float* weight = weights + lane;
+      for (std::ptrdiff_t offset : offsets) {
+        const V w = hn::LoadU(kWide, weight);
+        for (size_t q = 0; q < kPlanes; ++q)
+          sums[q] = hn::Add(sums[q], hn::Mul(w, hn::LoadU(kWide, planes[p + q] + offset + lane)));
+        weight += kBlock;
+      }
+      for (size_t q = 0; q < kPlanes; ++q)
+        hn::StoreU(hn::Div(sums[q], hn::LoadU(kWide, totals + lane)), kWide, out + q * kBlock + lane);
     }
-    if (left == 0) continue;
-    // Beyond a row's end there may be anything.
-    const V4 w = hn::LoadU(kFour, weights + whole);
-    for (size_t p = 0; p < kStep; ++p)
-      sums[p] =
-          hn::Add(sums[p], hn::Mul(w, hn::IfThenElseZero(rest, hn::LoadU(kFour, planes[p] + first + whole))));
-  }
-  hn::StoreU(sums_of(sums), kFour, out);
-}
-
-/// The same of all planes, divided by the sum of the weights.
-void mean(std::span<const float* const> planes, size_t first, size_t width, const FilterWindow& window,
-          const float* weights, float total, float* out) {
-  const V4 divisor = hn::Set(kFour, total);
-  for (size_t p = 0; p < planes.size(); p += hn::MaxLanes(kFour)) {
-    weigh(planes.data() + p, first, width, window, weights, out + p);
-    hn::StoreU(hn::Div(hn::LoadU(kFour, out + p), divisor), kFour, out + p);
-  }
 }
 
 } // namespace HWY_NAMESPACE
@@ -122,16 +93,15 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 const auto kSeparable = SL_BEST(separable);
 const auto kGaussian = SL_BEST(gaussian);
-const auto kWeigh = SL_BEST(weigh);
 const auto kMean = SL_BEST(mean);
 
 FilterWindow::FilterWindow(const PixelFilter& f, const SampleGridSize& size) {
   // The cells that have points less than half a width from the pixel's centre.
   auto first = [](float width, int density) {
-    return static_cast<int>(std::floor((0.5f - width / 2) * static_cast<float>(density)));
+    return std::min(0, static_cast<int>(std::floor((0.5f - width / 2) * static_cast<float>(density))));
   };
   auto end = [](float width, int density) {
-    return static_cast<int>(std::ceil((0.5f + width / 2) * static_cast<float>(density)));
+    return std::max(density, static_cast<int>(std::ceil((0.5f + width / 2) * static_cast<float>(density))));
   };
   i0 = first(f.xwidth, size.xsamples);
   i1 = end(f.xwidth, size.xsamples);
@@ -140,7 +110,8 @@ FilterWindow::FilterWindow(const PixelFilter& f, const SampleGridSize& size) {
 }
 
 WindowWeights::WindowWeights(const PixelFilter& filter, const SampleGridSize& size)
-    : filter_(filter), size_(size), window_(filter, size) {
+    : filter_(filter), size_(size), window_(filter, size), at_x_(kBlock * window_.count()),
+      at_y_(at_x_.size()) {
   if (!is_separable(filter.kind) || filter.kind == FilterKind::kGaussian) return;
   x_ = axis_table(filter.xwidth);
   y_ = axis_table(filter.ywidth);
@@ -155,69 +126,78 @@ WindowWeights::AxisTable WindowWeights::axis_table(float width) const {
 
 const float* WindowWeights::at(int x, int y, const SamplePattern& pattern) {
   constexpr size_t kMost = 1 << 22; // floats: filters of up to 7 by 7 pixels, whatever the number of samples
-  const auto period = static_cast<size_t>(pattern.period());
-  const size_t count = sum_at() + 1;
-  const bool kept = period * period * count <= kMost;
+  const auto period = static_cast<size_t>(pattern.period()), row = std::max<size_t>(period / kBlock, 1);
+  const size_t blocks = row * period, floats = kBlock * (window_.count() + 1);
+  const bool kept = blocks * floats <= kMost;
   if (weights_.empty()) {
-    weights_.resize((kept ? period * period : 1) * count + SamplePattern::kPadding);
-    known_.assign(kept ? period * period : 0, 0);
+    weights_.resize((kept ? blocks : 1) * floats);
+    known_.assign(kept ? blocks : 0, 0);
   }
   if (!kept) {
     compute(x, y, pattern, weights_.data());
     return weights_.data();
   }
   const int mask = pattern.period() - 1;
-  const size_t pixel = static_cast<size_t>(y & mask) * period + static_cast<size_t>(x & mask);
-  float* out = weights_.data() + pixel * count;
-  if (!known_[pixel]) {
+  const size_t block = static_cast<size_t>(y & mask) * row + static_cast<size_t>(x & mask) / kBlock;
+  float* out = weights_.data() + block * floats;
+  if (!known_[block]) {
     compute(x, y, pattern, out);
-    known_[pixel] = 1;
+    known_[block] = 1;
   }
   return out;
 }
 
 void WindowWeights::compute(int x, int y, const SamplePattern& pattern, float* out) {
-  at_x_.clear();
-  at_y_.clear();
-  const auto stride = static_cast<int>(window_.stride());
+  const auto xs = static_cast<float>(size_.xsamples), ys = static_cast<float>(size_.ysamples);
+  float *at_x = at_x_.data(), *at_y = at_y_.data();
   for (int j = window_.j0; j < window_.j1; ++j)
-    for (int i = window_.i0; i < window_.i0 + stride; ++i) {
-      // What fills up a row is beyond all filters.
-      Vec2 within = i < window_.i1 ? pattern.jitter(x * size_.xsamples + i, y * size_.ysamples + j)
-                                   : Vec2(2 * filter_.xwidth * static_cast<float>(size_.xsamples), 0);
-      at_x_.push_back((static_cast<float>(i) + within.x) / static_cast<float>(size_.xsamples) - 0.5f);
-      at_y_.push_back((static_cast<float>(j) + within.y) / static_cast<float>(size_.ysamples) - 0.5f);
+    for (int i = window_.i0; i < window_.i1; ++i, at_x += kBlock, at_y += kBlock) {
+      pattern.jitter({at_x, kBlock}, {at_y, kBlock}, x * size_.xsamples + i, y * size_.ysamples + j);
+      for (size_t k = 0; k < kBlock; ++k) {
+        at_x[k] = (static_cast<float>(i) + at_x[k]) / xs - 0.5f;
+        at_y[k] = (static_cast<float>(j) + at_y[k]) / ys - 0.5f;
+      }
     }
-  const size_t count = at_x_.size();
-  // What goes on to the end of a vector needs room.
-  at_x_.resize(count + SamplePattern::kPadding);
-  at_y_.resize(count + SamplePattern::kPadding);
-  scratch_.resize(count + SamplePattern::kPadding);
-  if (is_separable(filter_.kind)) {
-    separable_weights(count);
-  } else {
-    for (size_t k = 0; k < count; ++k)
-      scratch_[k] = filter_weight(filter_, at_x_[k], at_y_[k]);
-  }
-  std::copy_n(scratch_.begin(), count, out);
-  at_x_.assign(count + SamplePattern::kPadding, 1.0f);
-  const float* ones[FilterWindow::kLanes] = {at_x_.data(), at_x_.data(), at_x_.data(), at_x_.data()};
-  float sums[FilterWindow::kLanes];
-  kWeigh(ones, 0, window_.stride(), window_, out, sums);
-  out[count] = sums[0];
+  if (is_separable(filter_.kind))
+    separable_weights(out);
+  else
+    for (size_t k = 0; k < at_x_.size(); ++k)
+      out[k] = filter_weight(filter_, at_x_[k], at_y_[k]);
+  add_sums(out);
 }
 
-void WindowWeights::separable_weights(size_t count) {
+void WindowWeights::separable_weights(float* out) const {
   const bool gauss = filter_.kind == FilterKind::kGaussian;
   const float last = gauss ? 1 : kSteps;
   const Axis across{x_.data(), 2 * last / filter_.xwidth, last},
       down{y_.data(), 2 * last / filter_.ywidth, last};
-  (gauss ? kGaussian : kSeparable)(across, down, at_x_.data(), at_y_.data(), count, scratch_.data());
+  (gauss ? kGaussian : kSeparable)(across, down, at_x_.data(), at_y_.data(), at_x_.size(), out);
 }
 
-void WindowWeights::means(std::span<const float* const> planes, size_t first, size_t width,
-                          const float* weights, float* out) const {
-  kMean(planes, first, width, window_, weights, weights[sum_at()], out);
+/// In the order of means().
+void WindowWeights::add_sums(float* weights) const {
+  float* sums = weights + at_x_.size();
+  auto add_up = [&] {
+    std::fill_n(sums, kBlock, 0.0f);
+    for (const float* w = weights; w != sums; w += kBlock)
+      for (size_t lane = 0; lane < kBlock; ++lane)
+        sums[lane] += w[lane];
+  };
+  add_up();
+  if (std::find(sums, sums + kBlock, 0.0f) == sums + kBlock) return;
+  for (size_t lane = 0; lane < kBlock; ++lane)
+    for (int j = 0; sums[lane] == 0 && j < size_.ysamples; ++j)
+      for (int i = 0; i < size_.xsamples; ++i)
+        weights[(static_cast<size_t>(j - window_.j0) * window_.columns() +
+                 static_cast<size_t>(i - window_.i0)) *
+                    kBlock +
+                lane] = 1;
+  add_up();
+}
+
+void WindowWeights::means(std::span<const float* const> planes, std::span<const std::ptrdiff_t> offsets,
+                          const float* weights, float* out) {
+  kMean(planes, offsets, weights, out);
 }
 
 } // namespace render

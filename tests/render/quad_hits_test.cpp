@@ -168,54 +168,70 @@ TEST(WindowWeights, are_those_of_the_filter) {
         const int y = 1;
         pattern.cover({x - 4, y - 4, x + 5, y + 5});
         Vec2 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-        const float* got = weights.at(x, y, pattern);
+        // Of a block, of which the third pixel is looked at.
+        const float* got = weights.at(SampleColumns::block_of(x), y, pattern) + 2;
         float sum = 0;
-        for (int j = window.j0; j < window.j1; ++j, got += window.stride())
-          for (int i = window.i0; i < window.i1; ++i) {
+        for (int j = window.j0; j < window.j1; ++j)
+          for (int i = window.i0; i < window.i1; ++i, got += WindowWeights::kBlock) {
             Vec2 at = pattern.at(static_cast<size_t>((12 + j) * pattern.width() + 12 + i)) - centre;
-            EXPECT_NEAR(got[i - window.i0], filter_weight(filter, at.x, at.y), 2e-5f)
+            EXPECT_NEAR(*got, filter_weight(filter, at.x, at.y), 2e-5f)
                 << static_cast<int>(kind) << ' ' << width;
-            sum += got[i - window.i0];
+            sum += *got;
           }
         EXPECT_NEAR(*got, sum, 1e-6f * std::max(1.0f, sum));
       }
     }
 }
 
-TEST(WindowWeights, means_are_those_of_the_samples_in_the_window) {
+TEST(WindowWeights, are_those_of_a_mean_where_the_filter_misses_all_samples) {
   SamplePattern pattern(kSize, false, false);
-  pattern.cover({0, 0, 9, 9});
-  for (float width : {1.0f, 2.0f, 3.5f}) {
-    PixelFilter filter{FilterKind::kGaussian, width, width};
-    WindowWeights weights(filter, kSize);
-    const auto row = static_cast<size_t>(pattern.width());
-    std::vector<float> ramp, ones(pattern.count() + SamplePattern::kPadding, 1.0f);
-    for (size_t k = 0; k < pattern.count() + SamplePattern::kPadding; ++k)
-      ramp.push_back(k < pattern.count() ? pattern.at(k).x + 2 * pattern.at(k).y : NAN);
-    // What lies beside the window does not count, whatever it is.
-    const FilterWindow& window = weights.window();
-    const size_t first = static_cast<size_t>(12 + window.j0) * row + static_cast<size_t>(12 + window.i0);
-    for (size_t j = 0; j < window.rows(); ++j)
-      for (size_t i = 0; i < row; ++i)
-        if (size_t k = static_cast<size_t>(12 + window.j0) * row + j * row + i;
-            k < first + j * row || k >= first + j * row + window.columns())
-          ramp[k] = NAN;
-    const float* planes[] = {ones.data(), ramp.data(), ones.data(), ramp.data()};
-    float means[4];
-    weights.means(planes, first, row, weights.at(4, 4, pattern), means);
-    double sum = 0, total = 0;
-    for (size_t j = 0; j < window.rows(); ++j)
-      for (size_t k = first + j * row; k < first + j * row + window.columns(); ++k) {
-        Vec2 at = pattern.at(k) - Vec2(4.5f);
-        double w = static_cast<double>(filter_weight(filter, at.x, at.y));
-        total += w;
-        sum += w * static_cast<double>(ramp[k]);
-      }
-    EXPECT_EQ(means[0], 1);
-    EXPECT_EQ(means[2], 1);
-    EXPECT_NEAR(means[1], sum / total, 1e-4);
-    EXPECT_EQ(means[3], means[1]);
-  }
+  WindowWeights weights({FilterKind::kBox, 1e-3f, 1e-3f}, kSize);
+  const FilterWindow& window = weights.window();
+  ASSERT_EQ(window.count(), 9u);
+  const float* got = weights.at(0, 0, pattern);
+  for (size_t k = 0; k < 9; ++k)
+    EXPECT_EQ(got[k * WindowWeights::kBlock + 5], 1);
+  EXPECT_EQ(got[9 * WindowWeights::kBlock + 5], 9);
+}
+
+TEST(WindowWeights, means_are_those_of_the_samples_in_the_window) {
+  const PixelRect area{-3, 0, 30, 9};
+  SamplePattern pattern(kSize, false, false);
+  pattern.cover(area);
+  const auto row = static_cast<size_t>(pattern.width());
+  for (float width : {1.0f, 2.0f, 3.5f})
+    for (int x : {0, 4, 15, 16, 26}) {
+      PixelFilter filter{FilterKind::kGaussian, width, width};
+      WindowWeights weights(filter, kSize);
+      const FilterWindow& window = weights.window();
+      SampleColumns columns(kSize);
+      columns.begin(area);
+      std::vector<std::ptrdiff_t> offsets;
+      // What lies beside the window does not count, whatever it is.
+      std::vector<float> ramp(pattern.count(), NAN), ones(pattern.count(), 1.0f);
+      double sum = 0, total = 0;
+      for (int j = window.j0; j < window.j1; ++j)
+        for (int i = window.i0; i < window.i1; ++i) {
+          offsets.push_back(columns.offset(i, j));
+          size_t k = static_cast<size_t>(12 + j) * row + static_cast<size_t>((x - area.x0) * 3 + i);
+          Vec2 at = pattern.at(k) - Vec2(static_cast<float>(x) + 0.5f, 4.5f);
+          double w = static_cast<double>(filter_weight(filter, at.x, at.y));
+          ramp[k] = pattern.at(k).x + 2 * pattern.at(k).y;
+          total += w;
+          sum += w * static_cast<double>(ramp[k]);
+        }
+      const int block = SampleColumns::block_of(x);
+      const float* planes[4];
+      for (size_t p = 0; p < 4; ++p)
+        planes[p] = columns.sorted(p % 2 == 0 ? ones.data() : ramp.data()) + columns.place(block, 4);
+      float means[4][WindowWeights::kBlock];
+      weights.means(planes, offsets, weights.at(block, 4, pattern), means[0]);
+      const int lane = x - block;
+      EXPECT_EQ(means[0][lane], 1);
+      EXPECT_EQ(means[2][lane], 1);
+      EXPECT_NEAR(means[1][lane], sum / total, 1e-4);
+      EXPECT_EQ(means[3][lane], means[1][lane]);
+    }
 }
 
 } // namespace
