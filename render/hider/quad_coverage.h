@@ -86,16 +86,6 @@ private:
   }
 };
 
-/// One micropolygon in all lanes.
-HWY_INLINE WideQuad still_quad(const Vec3 (&p)[4]) {
-  WideQuad out;
-  for (size_t c = 0; c < 4; ++c) {
-    out.p[c] = {hn::Set(kWide, p[c].x), hn::Set(kWide, p[c].y)};
-    out.z[c] = hn::Set(kWide, p[c].z);
-  }
-  return out;
-}
-
 struct WideBox {
   WideVec2 low, high;
   HWY_INLINE WideBox(Vec2 from, Vec2 to)
@@ -168,19 +158,17 @@ HWY_INLINE void for_rows(size_t width, const Window& window, Look&& look) {
 }
 
 /// Calls `found(rows, coverage)` for all samples of the window, in vectors, of which some are in the
-/// micropolygon. The raster positions are in the planes x and y, `width` samples to a row.
+/// micropolygon; `box` is around it. The raster positions are in the planes x and y, `width` samples to a
+/// row.
 template <class Window, class Found>
-HWY_INLINE void for_covered(const Vec3 (&p)[4], const float* x, const float* y, size_t width,
-                            const Window& window, Found&& found) {
-  const WideBox box(glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3]))),
-                    glm::max(glm::max(Vec2(p[0]), Vec2(p[1])), glm::max(Vec2(p[2]), Vec2(p[3]))));
-  const WideQuad quad = still_quad(p);
+HWY_INLINE void for_covered(const WideQuad& quad, const WideBox& box, const float* x, const float* y,
+                            size_t width, const Window& window, Found&& found) {
   auto look = [&](const auto& rows, M in_window) HWY_ATTR {
     const WideVec2 at{rows.load(x), rows.load(y)};
     const M looked_at = hn::And(box.contains(at), in_window);
     if (hn::AllFalse(kWide, looked_at)) return;
     const WideCoverage covered = quad.cover(at, looked_at);
-    if (!hn::AllFalse(kWide, hn::Or(covered.first, covered.second))) found(rows, quad, covered);
+    if (!hn::AllFalse(kWide, hn::Or(covered.first, covered.second))) found(rows, covered);
   };
   // Most micropolygons are so small that several rows of their windows fit into a vector.
   const size_t columns = window.i1 - window.i0;

@@ -11,6 +11,9 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <bit>
+
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
@@ -62,15 +65,12 @@ public:
     samples.store(hn::IfThenElse(seen, z, before), canvas_.z);
     covered_first_ += hn::CountTrue(kWide, hn::And(seen, hn::Eq(before, hn::Set(kWide, kInfinity))));
     for (const PaintedValues& v : values_) {
-      const float* own = v.values + k * v.stride;
-      for (float* plane : v.planes) {
-        V value = hn::Set(kWide, own[0]);
-        if (smooth_)
-          value = weights.blend(value, hn::Set(kWide, own[v.stride]), hn::Set(kWide, own[nu_ * v.stride]),
-                                hn::Set(kWide, own[(nu_ + 1) * v.stride]));
-        samples.store(hn::IfThenElse(seen, value, samples.load(plane)), plane);
-        ++own;
-      }
+      const float* own = v.values + k * v.step;
+      V value = hn::Set(kWide, own[0]);
+      if (smooth_)
+        value = weights.blend(value, hn::Set(kWide, own[v.step]), hn::Set(kWide, own[nu_ * v.step]),
+                              hn::Set(kWide, own[(nu_ + 1) * v.step]));
+      samples.store(hn::IfThenElse(seen, value, samples.load(v.plane)), v.plane);
     }
   }
 
@@ -82,29 +82,86 @@ private:
   size_t covered_first_ = 0;
 };
 
+/// Boxes around micropolygons beside each other in a row, a lane each, and the samples they touch.
+class NeighbourBoxes {
+public:
+  /// Up to kLanes micropolygons, the first corner of the first of which is k.
+  HWY_INLINE NeighbourBoxes(const ShadedGrid& grid, size_t k, size_t count, const SampleCanvas& canvas) {
+    M touching = hn::FirstN(kWide, count);
+    find(grid, 0, k, canvas.covered.x0, canvas.density.x, canvas.width, low_x_, high_x_, i0_, i1_, touching);
+    find(grid, 1, k, canvas.covered.y0, canvas.density.y, canvas.height, low_y_, high_y_, j0_, j1_, touching);
+    hn::StoreMaskBits(kWide, touching, reinterpret_cast<uint8_t*>(&touching_));
+  }
+
+  /// A bit for each that touches samples.
+  uint64_t touching() const { return touching_; }
+  WideBox box(size_t lane) const { return {{low_x_[lane], low_y_[lane]}, {high_x_[lane], high_y_[lane]}}; }
+  SampleWindow window(size_t lane) const {
+    return {static_cast<size_t>(i0_[lane]), static_cast<size_t>(i1_[lane]), static_cast<size_t>(j0_[lane]),
+            static_cast<size_t>(j1_[lane])};
+  }
+
+private:
+  /// find_window() along one axis.
+  HWY_INLINE static void find(const ShadedGrid& grid, size_t component, size_t k, int origin, float density,
+                              int cells, float* low, float* high, int32_t* begin, int32_t* end, M& touching) {
+    const auto nu = static_cast<size_t>(grid.nu);
+    const float* at = grid.position.plane(component) + k;
+    const V a = hn::LoadU(kWide, at), b = hn::LoadU(kWide, at + 1), c = hn::LoadU(kWide, at + nu),
+            d = hn::LoadU(kWide, at + nu + 1);
+    const V least = hn::Min(hn::Min(a, b), hn::Min(c, d)), most = hn::Max(hn::Max(a, b), hn::Max(c, d));
+    const V zero = hn::Zero(kWide), limit = hn::Set(kWide, static_cast<float>(cells));
+    auto place = [&](V v) HWY_ATTR {
+      return hn::Mul(hn::Sub(v, hn::Set(kWide, static_cast<float>(origin))), hn::Set(kWide, density));
+    };
+    const V from = place(least), to = place(most);
+    // Also what is not a number, of micropolygons that are hidden, stays within the cells.
+    auto cell = [&](V v) HWY_ATTR {
+      return hn::Max(hn::ConvertTo(kIndices, hn::Min(limit, hn::Max(zero, v))), hn::Zero(kIndices));
+    };
+    const I first = cell(from), last = cell(hn::Add(to, hn::Set(kWide, 1.0f)));
+    touching = hn::And(touching, hn::And(hn::Ge(to, zero), hn::RebindMask(kWide, hn::Lt(first, last))));
+    hn::Store(least, kWide, low);
+    hn::Store(most, kWide, high);
+    hn::Store(first, kIndices, begin);
+    hn::Store(last, kIndices, end);
+  }
+
+  HWY_ALIGN float low_x_[kLanes], low_y_[kLanes], high_x_[kLanes], high_y_[kLanes];
+  HWY_ALIGN int32_t i0_[kLanes], i1_[kLanes], j0_[kLanes], j1_[kLanes];
+  uint64_t touching_ = 0;
+};
+
+/// A micropolygon of a grid in all lanes.
+HWY_INLINE WideQuad quad_of(const ShadedGrid& grid, size_t k) {
+  const float *x = grid.position.plane(0), *y = grid.position.plane(1), *z = grid.position.plane(2);
+  const auto nu = static_cast<size_t>(grid.nu);
+  const size_t corners[] = {k, k + 1, k + nu, k + nu + 1};
+  WideQuad out;
+  for (size_t c = 0; c < 4; ++c) {
+    out.p[c] = {hn::Set(kWide, x[corners[c]]), hn::Set(kWide, y[corners[c]])};
+    out.z[c] = hn::Set(kWide, z[corners[c]]);
+  }
+  return out;
+}
+
 size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas) {
   const auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv),
              width = static_cast<size_t>(canvas.width);
-  const Vec2 origin(static_cast<float>(canvas.covered.x0), static_cast<float>(canvas.covered.y0));
   Painter painter(grid, values, canvas);
-  for (size_t j = 0, m = 0; j + 1 < nv; ++j) {
-    if (!grid.rows.empty() && !grid.rows[j].touches(canvas.covered)) {
-      m += nu - 1;
-      continue;
-    }
-    for (size_t k = j * nu; k < (j + 1) * nu - 1; ++k, ++m) {
-      if (grid.hidden[m] == ShadedGrid::kNotDrawn) continue;
-      const Vec3* at = grid.position.data() + k;
-      const Vec3 p[4] = {at[0], at[1], at[nu], at[nu + 1]};
-      const Vec2 low = glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3])));
-      const Vec2 high = glm::max(glm::max(Vec2(p[0]), Vec2(p[1])), glm::max(Vec2(p[2]), Vec2(p[3])));
-      SampleWindow window;
-      if (!find_window((low - origin) * canvas.density, (high - origin) * canvas.density, canvas.width,
-                       canvas.height, window))
-        continue;
-      for_covered(p, canvas.x, canvas.y, width, window,
-                  [&](const auto& samples, const WideQuad& quad, const WideCoverage& in)
-                      HWY_ATTR { painter.paint(samples, quad, in, k); });
+  for (size_t j = 0; j + 1 < nv; ++j) {
+    if (!grid.rows.empty() && !grid.rows[j].touches(canvas.covered)) continue;
+    for (size_t first = 0; first + 1 < nu; first += kLanes) {
+      const NeighbourBoxes boxes(grid, j * nu + first, std::min(kLanes, nu - 1 - first), canvas);
+      for (uint64_t left = boxes.touching(); left != 0; left &= left - 1) {
+        const auto lane = static_cast<size_t>(std::countr_zero(left));
+        const size_t i = first + lane, k = j * nu + i;
+        if (grid.hidden[j * (nu - 1) + i] == ShadedGrid::kNotDrawn) continue;
+        const WideQuad quad = quad_of(grid, k);
+        for_covered(quad, boxes.box(lane), canvas.x, canvas.y, width, boxes.window(lane),
+                    [&](const auto& samples, const WideCoverage& in)
+                        HWY_ATTR { painter.paint(samples, quad, in, k); });
+      }
     }
   }
   return painter.covered_first();

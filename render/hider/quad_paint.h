@@ -6,15 +6,14 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace render {
 
-/// Values of points, and the planes that get them: value c of point k is values[stride * k + c].
+/// Values of points, and the plane that gets them: that of point k is values[step * k].
 struct PaintedValues {
   const float* values;
-  size_t stride;
-  std::vector<float*> planes;
+  size_t step;
+  float* plane;
 };
 
 /// Samples in rows; all planes are SampleField::kPadding longer than there are samples.

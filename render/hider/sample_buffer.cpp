@@ -110,18 +110,14 @@ bool SampleBuffer::can_paint(const ShadedGrid& grid) const {
 
 void SampleBuffer::paint_grid(const ShadedGrid& grid) {
   static constexpr float kOne = 1, kZero = 0;
-  auto planes = [&](size_t first, size_t count) {
-    std::vector<float*> out;
-    for (size_t c = first; c < first + count; ++c)
-      out.push_back(planes_[c].data());
-    return out;
-  };
-  std::vector<PaintedValues> values{{&grid.Ci[0].x, 3, planes(Image::kCi, 3)}};
-  if (aovs_ > 0) values.push_back({grid.aov.data(), aovs_, planes(Image::kAov, aovs_)});
-  if (!plain_)
-    for (float* plane : planes(Image::kOi, 3))
-      values.push_back({&kOne, 0, {plane}});
-  if (!plain_) values.push_back({&kZero, 0, {matte_.data()}});
+  std::vector<PaintedValues> values;
+  for (size_t c = 0; c < 3; ++c)
+    values.push_back({grid.Ci.plane(c), 1, planes_[Image::kCi + c].data()});
+  for (size_t c = 0; c < aovs_; ++c)
+    values.push_back({grid.aov.data() + c * grid.points(), 1, planes_[Image::kAov + c].data()});
+  for (size_t c = 0; !plain_ && c < 3; ++c)
+    values.push_back({&kOne, 0, planes_[Image::kOi + c].data()});
+  if (!plain_) values.push_back({&kZero, 0, matte_.data()});
   const SampleCanvas canvas{covered_,        pattern_.width(),     pattern_.height(),
                             density_,        pattern_.x(),         pattern_.y(),
                             depths().data(), settings_.near_plane, settings_.far_plane};
@@ -173,7 +169,7 @@ void SampleBuffer::hit_all(const ShadedGrid& grid, size_t k, size_t count) {
 
 void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
   auto nu = static_cast<size_t>(grid.nu);
-  const auto& position = grid.position;
+  const Vec3Planes& position = grid.position;
   const Vec3 p[4] = {position[k], position[k + 1], position[k + nu], position[k + nu + 1]};
   Vec2 low = glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3])));
   Vec2 high = glm::max(glm::max(Vec2(p[0]), Vec2(p[1])), glm::max(Vec2(p[2]), Vec2(p[3])));
@@ -200,9 +196,11 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
   auto nu = static_cast<size_t>(grid.nu);
   const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
   Box everywhere;
-  for (size_t first = 0; first < grid.position.size(); first += grid.points())
-    for (size_t c : corner)
-      everywhere.add(grid.position[first + c]);
+  for (size_t c : corner) {
+    everywhere.add(grid.position[c]);
+    for (const Vec3Planes& later : grid.later)
+      everywhere.add(later[c]);
+  }
   add_lens(lens_box_, everywhere);
   SampleWindow window;
   if (!find_window(Vec2(everywhere.min) - origin_ - kSlack, Vec2(everywhere.max) - origin_ + kSlack,
@@ -260,12 +258,16 @@ bool SampleBuffer::removed(size_t index, float z) const {
 
 namespace {
 
-/// A colour or opacity. corners[0] is the micropolygon's own corner, whose colour it has throughout without
-/// smooth shading.
-Color colour_of(const ShadedGrid& grid, const std::vector<Color>& colours, const size_t (&corners)[3],
-                const float (&weights)[3]) {
-  const Color& own = colours[corners[0]];
-  return grid.smooth ? blend(own, colours[corners[1]], colours[corners[2]], weights) : own;
+/// corners[0] is the micropolygon's own corner, whose values it has throughout without smooth shading.
+Color colour_of(const ShadedGrid& grid, const size_t (&corners)[3], const float (&weights)[3]) {
+  const Color own = grid.Ci[corners[0]];
+  return grid.smooth ? blend(own, grid.Ci[corners[1]], grid.Ci[corners[2]], weights) : own;
+}
+
+Color opacity_of(const ShadedGrid& grid, const size_t (&corners)[3], const float (&weights)[3]) {
+  const Color own = grid.opacity(corners[0]);
+  if (!grid.smooth || grid.opaque) return own;
+  return blend(own, grid.Oi[corners[1]], grid.Oi[corners[2]], weights);
 }
 
 } // namespace
@@ -279,8 +281,8 @@ void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corn
   }
   if (z >= limits()[index] || z < settings_.near_plane || z > settings_.far_plane) return;
   if (removed(index, z)) return;
-  add(index, colour_of(grid, grid.Ci, corners, weights), colour_of(grid, grid.Oi, corners, weights), z,
-      grid.matte, variables_of(grid, corners, weights));
+  add(index, colour_of(grid, corners, weights), opacity_of(grid, corners, weights), z, grid.matte,
+      variables_of(grid, corners, weights));
 }
 
 Color SampleBuffer::colour(size_t index, int channel) const {
@@ -301,13 +303,12 @@ void SampleBuffer::set_aov(size_t index, const float* values) {
 const float* SampleBuffer::variables_of(const ShadedGrid& grid, const size_t (&corners)[3],
                                         const float (&weights)[3]) {
   if (aovs_ == 0) return nullptr;
-  const float* values[3];
-  for (size_t c = 0; c < 3; ++c)
-    values[c] = grid.aov.data() + corners[c] * aovs_;
-  if (!grid.smooth) return values[0];
   blended_aov_.resize(aovs_);
-  for (size_t k = 0; k < aovs_; ++k)
-    blended_aov_[k] = blend(values[0][k], values[1][k], values[2][k], weights);
+  const float* values = grid.aov.data();
+  for (size_t k = 0; k < aovs_; ++k, values += grid.points()) {
+    const float own = values[corners[0]];
+    blended_aov_[k] = grid.smooth ? blend(own, values[corners[1]], values[corners[2]], weights) : own;
+  }
   return blended_aov_.data();
 }
 
@@ -319,7 +320,7 @@ void SampleBuffer::hit_solid(const ShadedGrid& grid, size_t index, const size_t 
   size_t micropolygon = corners[0] - corners[0] / static_cast<size_t>(grid.nu);
   bool unseen =
       grid.hidden[micropolygon] == ShadedGrid::kFacesAway || z > settings_.far_plane || removed(index, z);
-  solid_hits_.add({colour_of(grid, grid.Ci, corners, weights), colour_of(grid, grid.Oi, corners, weights), z,
+  solid_hits_.add({colour_of(grid, corners, weights), opacity_of(grid, corners, weights), z,
                    static_cast<uint32_t>(index), grid.solid_primitive, grid.matte, unseen, grid.cut_near});
   const float* aov = variables_of(grid, corners, weights);
   solid_aov_.insert(solid_aov_.end(), aov, aov + aovs_);

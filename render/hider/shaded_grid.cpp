@@ -27,6 +27,65 @@ bool is_finite(Vec3 v) {
   return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0;
 }
 
+/// Whether `test` is true of all values; one after another without a branch, for the compiler to use vectors.
+template <class Test> bool all_of(const float* values, size_t count, Test&& test) {
+  int failed = 0;
+  for (size_t k = 0; k < count; ++k)
+    failed |= !test(values[k]);
+  return failed == 0;
+}
+
+bool all_finite(const float* values, size_t count) {
+  return all_of(values, count, [](float v) { return v - v == 0; });
+}
+
+/// Raster x and y, camera z.
+Vec3Planes project_all(const slvm::Grid& grid, const Camera& camera) {
+  const slvm::Planes& P = grid.variable(slvm::Global::kP);
+  Vec3Planes out(grid.points());
+  const float *x = P.data, *y = x + P.pitch, *z = y + P.pitch;
+  float* __restrict raster_x = out.plane(0), * __restrict raster_y = out.plane(1);
+  for (size_t k = 0; k < out.size(); ++k) {
+    const Vec2 at = camera.project({x[k], y[k], z[k]});
+    raster_x[k] = at.x;
+    raster_y[k] = at.y;
+  }
+  std::copy_n(z, out.size(), out.plane(2));
+  return out;
+}
+
+void snap(const GridOutline& outline, const ShadedGrid& grid, Vec3Planes& position) {
+  for (size_t c = 0; c < 3; ++c)
+    snap_to_outline(outline, grid.nu, grid.nv, {position.plane(c), position.size()});
+}
+
+Vec3Planes colours(const slvm::Planes& from, size_t points) {
+  Vec3Planes out(points);
+  for (size_t c = 0; c < 3; ++c)
+    if (const float* values = from.data + c * from.pitch; from.step == 0)
+      std::fill_n(out.plane(c), points, *values);
+    else
+      std::copy_n(values, points, out.plane(c));
+  return out;
+}
+
+/// Colours that are not finite become black and opaque. Returns how many.
+size_t mend_colours(Vec3Planes& Ci, Vec3Planes& Oi) {
+  auto finite = [](const Vec3Planes& v) {
+    return all_finite(v.plane(0), v.size()) && all_finite(v.plane(1), v.size()) &&
+           all_finite(v.plane(2), v.size());
+  };
+  if (finite(Ci) && finite(Oi)) return 0;
+  size_t bad = 0;
+  for (size_t k = 0; k < Ci.size(); ++k) {
+    if (is_finite(Ci[k]) && is_finite(Oi[k])) continue;
+    Ci.set(k, Color(0.0f));
+    Oi.set(k, Color(1.0f));
+    ++bad;
+  }
+  return bad;
+}
+
 /// Calls `test` with the four corners of each micropolygon and marks those for which it is true.
 template <class Test>
 void hide_where(const slvm::Grid& grid, ShadedGrid& out, ShadedGrid::Visibility mark, Test&& test) {
@@ -51,13 +110,12 @@ void hide_between_pieces(const slvm::Grid& grid, ShadedGrid& out) {
 void hide_behind_eye(const slvm::Grid& grid, const Camera& camera, ShadedGrid& out) {
   float nearest = camera.perspective() ? camera.near_plane() : -kInfinity;
   // Of most grids nothing is.
-  const Triples P(grid.variable(slvm::Global::kP));
-  bool visible = true;
-  for (size_t k = 0; k < grid.points(); ++k) {
-    const Vec3 p = P[k];
-    visible &= is_finite(p) && p.z >= nearest;
-  }
-  if (visible) return;
+  const slvm::Planes& P = grid.variable(slvm::Global::kP);
+  const size_t points = grid.points();
+  const float *x = P.data, *y = x + P.pitch, *z = y + P.pitch;
+  if (all_finite(x, points) && all_finite(y, points) && all_finite(z, points) &&
+      all_of(z, points, [&](float v) { return v >= nearest; }))
+    return;
   hide_where(grid, out, ShadedGrid::kNotDrawn, [&](const Vec3(&p)[4]) {
     return std::any_of(p, p + 4, [&](Vec3 q) { return !is_finite(q) || q.z < nearest; });
   });
@@ -75,12 +133,39 @@ void hide_back_faces(const slvm::Grid& grid, const Camera& camera, float toleran
   });
 }
 
+/// In lanes, for the compiler to use vectors.
+void find_range(const float* values, size_t count, float& least, float& most) {
+  constexpr size_t kLanes = 8;
+  float low[kLanes], high[kLanes];
+  std::fill_n(low, kLanes, kInfinity);
+  std::fill_n(high, kLanes, -kInfinity);
+  size_t k = 0;
+  for (; k + kLanes <= count; k += kLanes)
+    for (size_t i = 0; i < kLanes; ++i) {
+      low[i] = std::min(low[i], values[k + i]);
+      high[i] = std::max(high[i], values[k + i]);
+    }
+  for (; k < count; ++k) {
+    low[0] = std::min(low[0], values[k]);
+    high[0] = std::max(high[0], values[k]);
+  }
+  least = *std::min_element(low, low + kLanes);
+  most = *std::max_element(high, high + kLanes);
+}
+
 std::vector<RasterBounds> bounds_of_rows(const ShadedGrid& grid) {
-  auto nu = static_cast<size_t>(grid.nu);
-  std::vector<RasterBounds> out(static_cast<size_t>(grid.nv) - 1);
-  for (size_t j = 0; j < out.size(); ++j)
-    for (size_t k = j * nu; k < (j + 2) * nu; ++k)
-      out[j].add(Vec2(grid.position[k]));
+  const auto nu = static_cast<size_t>(grid.nu);
+  std::vector<RasterBounds> out(static_cast<size_t>(grid.nv));
+  for (size_t j = 0; j < out.size(); ++j) {
+    find_range(grid.position.plane(0) + j * nu, nu, out[j].min.x, out[j].max.x);
+    find_range(grid.position.plane(1) + j * nu, nu, out[j].min.y, out[j].max.y);
+  }
+  // From rows of points to rows of micropolygons.
+  for (size_t j = 0; j + 1 < out.size(); ++j) {
+    out[j].add(out[j + 1].min);
+    out[j].add(out[j + 1].max);
+  }
+  out.pop_back();
   return out;
 }
 
@@ -97,22 +182,13 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   out.smooth = a.smooth_shading;
   out.level = primitive.state->level;
   size_t points = grid.points();
-  const Triples P(grid.variable(slvm::Global::kP)), Ci(grid.variable(slvm::Global::kCi)),
-      Oi(grid.variable(slvm::Global::kOi));
-  out.position.resize(points);
-  out.Ci.resize(points);
-  out.Oi.resize(points);
-  for (size_t k = 0; k < points; ++k) {
-    const Vec3 p = P[k], C = Ci[k], O = Oi[k];
-    out.position[k] = Vec3(camera.project(p), p.z);
-    out.Ci[k] = C;
-    out.Oi[k] = O;
-    if (is_finite(C) && is_finite(O)) continue;
-    out.Ci[k] = Color(0.0f);
-    out.Oi[k] = Color(1.0f);
-    ++out.bad_colours;
-  }
-  out.opaque = std::all_of(out.Oi.begin(), out.Oi.end(), [](const Color& O) { return O == Color(1.0f); });
+  out.position = project_all(grid, camera);
+  out.Ci = colours(grid.variable(slvm::Global::kCi), points);
+  out.Oi = colours(grid.variable(slvm::Global::kOi), points);
+  out.bad_colours = mend_colours(out.Ci, out.Oi);
+  out.opaque = true;
+  for (size_t c = 0; out.opaque && c < 3; ++c)
+    out.opaque = all_of(out.Oi.plane(c), points, [](float v) { return v == 1; });
   for (const AovChannel& c : aovs)
     out.aov_floats += c.components;
   out.aov.assign(points * static_cast<size_t>(out.aov_floats), 0.0f);
@@ -123,10 +199,11 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
     if (!planes || !planes->data) continue;
     if (v < 64) out.variables |= uint64_t{1} << v;
     int components = std::min(c.components, slvm::components(planes->type));
-    for (size_t k = 0; k < points; ++k)
-      for (int i = 0; i < components; ++i)
-        out.aov[k * static_cast<size_t>(out.aov_floats) + static_cast<size_t>(c.first + i)] =
-            planes->get(static_cast<size_t>(i), k);
+    for (int i = 0; i < components; ++i) {
+      float* to = out.aov.data() + static_cast<size_t>(c.first + i) * points;
+      for (size_t k = 0; k < points; ++k)
+        to[k] = planes->get(static_cast<size_t>(i), k);
+    }
   }
   out.solid = primitive.state->solid;
   out.solid_primitive = primitive.state->solid_primitive;
@@ -134,25 +211,19 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   hide_between_pieces(grid, out);
   hide_behind_eye(grid, camera, out);
   if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
-  if (outline) snap_to_outline(*outline, out.nu, out.nv, out.position);
+  if (outline) snap(*outline, out, out.position);
   out.rows = bounds_of_rows(out);
   return out;
 }
 
 void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const Camera& camera,
                    const GridOutline* outline) {
-  const Triples P(grid.variable(slvm::Global::kP));
   if (shaded.times.empty()) shaded.times.push_back(0);
   shaded.rows.clear();
   shaded.times.push_back(time);
-  std::vector<Vec3> moved(grid.points());
-  for (size_t k = 0; k < moved.size(); ++k) {
-    const Vec3 p = P[k];
-    moved[k] = Vec3(camera.project(p), p.z);
-  }
   hide_behind_eye(grid, camera, shaded);
-  if (outline) snap_to_outline(*outline, shaded.nu, shaded.nv, moved);
-  shaded.position.insert(shaded.position.end(), moved.begin(), moved.end());
+  Vec3Planes& moved = shaded.later.emplace_back(project_all(grid, camera));
+  if (outline) snap(*outline, shaded, moved);
 }
 
 } // namespace render

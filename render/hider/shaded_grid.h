@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/hider/image.h"
+#include "render/hider/vec3_planes.h"
 #include "render/prims/primitive.h"
 #include "render/prims/stitch.h"
 #include "render/shading/grid_shader.h"
@@ -27,12 +28,12 @@ struct RasterBounds {
 };
 
 struct ShadedGrid {
-  int nu = 0, nv = 0; ///< points
-  std::vector<Vec3>
-      position;             ///< raster x and y, camera z; of a moving grid at all `times`, one after another
-  std::vector<float> times; ///< of a moving grid: parts of the shutter time, from 0 to 1; else empty
-  std::vector<Color> Ci, Oi;
-  std::vector<float> aov; ///< aov_floats a point
+  int nu = 0, nv = 0;            ///< points
+  Vec3Planes position;           ///< raster x and y, camera z; of a moving grid at times[0]
+  std::vector<Vec3Planes> later; ///< and at the other times
+  std::vector<float> times;      ///< of a moving grid: parts of the shutter time, from 0 to 1; else empty
+  Vec3Planes Ci, Oi;             ///< Oi is not looked at where `opaque`
+  std::vector<float> aov;        ///< aov_floats planes
   int aov_floats = 0;
   /// For each micropolygon. What faces away and must not be seen still bounds a solid.
   enum Visibility : uint8_t { kDrawn, kNotDrawn, kFacesAway };
@@ -53,14 +54,15 @@ struct ShadedGrid {
   /// A point at a part of the shutter time.
   Vec3 at(size_t point, float time) const {
     if (times.empty()) return position[point];
-    if (times.size() == 2) return position[point] + (position[points() + point] - position[point]) * time;
     size_t key = 0;
     while (key + 2 < times.size() && time > times[key + 1])
       ++key;
-    float weight = (time - times[key]) / (times[key + 1] - times[key]);
-    const Vec3 &a = position[key * points() + point], &b = position[(key + 1) * points() + point];
+    // Two times are 0 and 1.
+    float weight = times.size() == 2 ? time : (time - times[key]) / (times[key + 1] - times[key]);
+    const Vec3 a = key == 0 ? position[point] : later[key - 1][point], b = later[key][point];
     return a + (b - a) * weight;
   }
+  Color opacity(size_t point) const { return opaque ? Color(1.0f) : Oi[point]; }
 };
 
 /// From a grid that was displaced and shaded. Micropolygons that touch the eye plane are not drawn, nor those

@@ -63,16 +63,16 @@ GridOutline find_outline(const slvm::Grid& grid, const UvRect& rect, const Camer
   return out;
 }
 
-void snap_to_outline(const GridOutline& outline, int nu, int nv, std::span<Vec3> points) {
+void snap_to_outline(const GridOutline& outline, int nu, int nv, std::span<float> values) {
   auto columns = static_cast<size_t>(nu), rows = static_cast<size_t>(nv);
   for (size_t s = 0; s < 4; ++s) {
     const std::vector<uint8_t>& keep = outline.sides[s];
     size_t last = 0;
     for (size_t i = 1; i < keep.size(); ++i) {
       if (!keep[i]) continue;
-      Vec3 a = points[side_point(s, last, columns, rows)], b = points[side_point(s, i, columns, rows)];
+      float a = values[side_point(s, last, columns, rows)], b = values[side_point(s, i, columns, rows)];
       for (size_t j = last + 1; j < i; ++j)
-        points[side_point(s, j, columns, rows)] =
+        values[side_point(s, j, columns, rows)] =
             a + (b - a) * (static_cast<float>(j - last) / static_cast<float>(i - last));
       last = i;
     }

@@ -32,7 +32,7 @@ struct GridOutline {
 /// micropolygon in pixels.
 GridOutline find_outline(const slvm::Grid& grid, const UvRect& rect, const Camera& camera, float step);
 
-/// Moves the points that are not on the outline onto it. `points` are in raster space, u fastest.
-void snap_to_outline(const GridOutline& outline, int nu, int nv, std::span<Vec3> points);
+/// Moves the points that are not on the outline onto it: one component of them, in raster space, u fastest.
+void snap_to_outline(const GridOutline& outline, int nu, int nv, std::span<float> values);
 
 } // namespace render

@@ -22,12 +22,14 @@ std::vector<ShadedGrid> make_grids(bool opaque) {
       g.smooth = true;
       g.opaque = opaque;
       g.hidden.assign((kGrid - 1) * (kGrid - 1), ShadedGrid::kDrawn);
+      g.position = g.Ci = Vec3Planes(kGrid * kGrid);
+      g.Oi = Vec3Planes(kGrid * kGrid, Color(1.0f));
       for (int k = 0; k < kGrid * kGrid; ++k) {
+        const auto point = static_cast<size_t>(k);
         const auto x = static_cast<float>(part % 3 * (kGrid - 1) + k % kGrid - 8),
                    y = static_cast<float>(part / 3 * (kGrid - 1) + k / kGrid - 8);
-        g.position.push_back({x + 0.1f * y, y - 0.1f * x, static_cast<float>(2 + layer)});
-        g.Ci.push_back({x / kPixels, y / kPixels, static_cast<float>(layer) / kLayers});
-        g.Oi.push_back(Color(1.0f));
+        g.position.set(point, {x + 0.1f * y, y - 0.1f * x, static_cast<float>(2 + layer)});
+        g.Ci.set(point, {x / kPixels, y / kPixels, static_cast<float>(layer) / kLayers});
       }
     }
   return out;

@@ -19,9 +19,11 @@ SamplingSettings settings(int samples = 8) {
 ShadedGrid quad(const std::array<Vec3, 4>& p, Color Ci, Color Oi) {
   ShadedGrid g;
   g.nu = g.nv = 2;
-  g.position = {p[0], p[1], p[2], p[3]};
-  g.Ci.assign(4, Ci);
-  g.Oi.assign(4, Oi);
+  g.position = Vec3Planes(4);
+  for (size_t k = 0; k < 4; ++k)
+    g.position.set(k, p[k]);
+  g.Ci = Vec3Planes(4, Ci);
+  g.Oi = Vec3Planes(4, Oi);
   g.hidden = {0};
   return g;
 }
@@ -137,7 +139,8 @@ TEST(Hider, matte_cuts_a_hole) {
 
 TEST(Hider, smooth_and_constant_shading) {
   ShadedGrid g = sheet(1, kWhite, kWhite);
-  g.Ci = {kBlack, kWhite, kBlack, kWhite};
+  g.Ci.set(0, kBlack);
+  g.Ci.set(2, kBlack);
   EXPECT_EQ(drawn({g}).pixel(2, 2)[0], 0);
   g.smooth = true;
   EXPECT_NEAR(drawn({g}, settings(16)).pixel(2, 2)[0], (2.5f + 9) / 108, 1e-3f);
@@ -171,14 +174,14 @@ TEST(Hider, opaque_grids_are_painted_as_layers_are_composited) {
     g.opaque = true;
     g.hidden.assign(6, ShadedGrid::kDrawn);
     g.hidden[n % 6] = ShadedGrid::kNotDrawn;
+    g.position = g.Ci = Vec3Planes(12);
+    g.Oi = Vec3Planes(12, kWhite);
     Vec3 corner(at(random), at(random), depth(random));
-    for (int k = 0; k < 12; ++k) {
-      g.position.push_back(corner + Vec3(k % 4, k / 4, 0) +
-                           Vec3(at(random), at(random), depth(random)) * 0.1f);
-      g.Ci.push_back({shade(random), shade(random), shade(random)});
+    for (size_t k = 0; k < 12; ++k) {
+      g.position.set(k, corner + Vec3(k % 4, k / 4, 0) + Vec3(at(random), at(random), depth(random)) * 0.1f);
+      g.Ci.set(k, {shade(random), shade(random), shade(random)});
       g.aov.insert(g.aov.end(), {shade(random), shade(random)});
     }
-    g.Oi.assign(12, kWhite);
   }
   Image painted = drawn(grids, s, 16);
   for (size_t first : {size_t{0}, grids.size() / 2}) { // all slowly, or painted among layers
