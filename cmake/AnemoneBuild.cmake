@@ -55,6 +55,24 @@ function(sl_library name)
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE $<BUILD_INTERFACE:anemone_flags> ${arg_PRIVATE})
 endfunction()
 
+# sl_archived(OUT "shared libraries" names...): what a library links to get these, or, in programs with the property
+# SL_ARCHIVED, the archives of those names. Where one is missing all get the shared libraries.
+function(sl_archived out shared)
+  set(archived "$<BOOL:$<TARGET_PROPERTY:SL_ARCHIVED>>")
+  foreach(name ${ARGN})
+    find_library(ANEMONE_ARCHIVE_${name} NAMES lib${name}.a)
+    if(NOT ANEMONE_ARCHIVE_${name})
+      set(${out} ${shared} PARENT_SCOPE)
+      return()
+    endif()
+    list(APPEND libraries "$<${archived}:${ANEMONE_ARCHIVE_${name}}>")
+  endforeach()
+  foreach(name ${shared})
+    list(APPEND libraries "$<$<NOT:${archived}>:${name}>")
+  endforeach()
+  set(${out} ${libraries} PARENT_SCOPE)
+endfunction()
+
 # All programs that are installed, without tests and benchmarks.
 add_custom_target(tools)
 

@@ -132,6 +132,38 @@ private:
   uint64_t touching_ = 0;
 };
 
+/// Which of micropolygons beside each other are opaque all over, and which are not there at all: a bit each.
+struct Opacities {
+  uint64_t opaque = ~uint64_t{0}, absent = 0;
+
+  HWY_INLINE Opacities(const ShadedGrid& grid, size_t k) {
+    if (grid.opaque) return;
+    M ones = hn::FirstN(kWide, kLanes), zeros = ones;
+    for (size_t c = 0; c < 3; ++c) {
+      each_corner(grid, grid.Oi.plane(c) + k, [&](V O) HWY_ATTR {
+        ones = hn::And(ones, hn::Eq(O, hn::Set(kWide, 1.0f)));
+        zeros = hn::And(zeros, hn::Eq(O, hn::Zero(kWide)));
+      });
+      each_corner(grid, grid.Ci.plane(c) + k,
+                  [&](V C) HWY_ATTR { zeros = hn::And(zeros, hn::Eq(C, hn::Zero(kWide))); });
+    }
+    opaque = 0;
+    hn::StoreMaskBits(kWide, ones, reinterpret_cast<uint8_t*>(&opaque));
+    hn::StoreMaskBits(kWide, zeros, reinterpret_cast<uint8_t*>(&absent));
+  }
+
+private:
+  /// Those whose values are seen: without smooth shading the first.
+  template <class F> HWY_INLINE static void each_corner(const ShadedGrid& grid, const float* at, F&& f) {
+    f(hn::LoadU(kWide, at));
+    if (!grid.smooth) return;
+    const auto nu = static_cast<size_t>(grid.nu);
+    f(hn::LoadU(kWide, at + 1));
+    f(hn::LoadU(kWide, at + nu));
+    f(hn::LoadU(kWide, at + nu + 1));
+  }
+};
+
 /// A micropolygon of a grid in all lanes.
 HWY_INLINE WideQuad quad_of(const ShadedGrid& grid, size_t k) {
   const float *x = grid.position.plane(0), *y = grid.position.plane(1), *z = grid.position.plane(2);
@@ -145,7 +177,8 @@ HWY_INLINE WideQuad quad_of(const ShadedGrid& grid, size_t k) {
   return out;
 }
 
-size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas) {
+size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas,
+                  std::vector<size_t>& rest) {
   const auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv),
              width = static_cast<size_t>(canvas.width);
   Painter painter(grid, values, canvas);
@@ -153,10 +186,16 @@ size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values,
     if (!grid.rows.empty() && !grid.rows[j].touches(canvas.covered)) continue;
     for (size_t first = 0; first + 1 < nu; first += kLanes) {
       const NeighbourBoxes boxes(grid, j * nu + first, std::min(kLanes, nu - 1 - first), canvas);
-      for (uint64_t left = boxes.touching(); left != 0; left &= left - 1) {
+      if (boxes.touching() == 0) continue;
+      const Opacities opacities(grid, j * nu + first);
+      for (uint64_t left = boxes.touching() & ~opacities.absent; left != 0; left &= left - 1) {
         const auto lane = static_cast<size_t>(std::countr_zero(left));
         const size_t i = first + lane, k = j * nu + i;
         if (grid.hidden[j * (nu - 1) + i] == ShadedGrid::kNotDrawn) continue;
+        if ((opacities.opaque >> lane & 1) == 0) {
+          rest.push_back(k);
+          continue;
+        }
         const WideQuad quad = quad_of(grid, k);
         for_covered(quad, boxes.box(lane), canvas.x, canvas.y, width, boxes.window(lane),
                     [&](const auto& samples, const WideCoverage& in)
@@ -175,8 +214,9 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 const auto kPaint = SL_BEST(paint_grid);
 
-size_t paint(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas) {
-  return kPaint(grid, values, canvas);
+size_t paint(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas,
+             std::vector<size_t>& rest) {
+  return kPaint(grid, values, canvas, rest);
 }
 
 } // namespace render

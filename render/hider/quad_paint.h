@@ -1,4 +1,5 @@
-// Opaque grids that stand still, drawn straight into planes of samples: what most pictures are made of.
+// Opaque micropolygons that stand still, drawn straight into planes of samples: what most pictures are made
+// of.
 #pragma once
 
 #include "render/hider/shaded_grid.h"
@@ -6,6 +7,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace render {
 
@@ -28,7 +30,9 @@ struct SampleCanvas {
 
 /// The surfaces of the grid that are nearer than what was there give the samples their depths and values,
 /// those of the nearest first corner without smooth shading. Of a folded micropolygon that covers a sample
-/// twice the first triangle counts (QuadPart). Returns how many samples had no surface before.
-size_t paint(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas);
+/// twice the first triangle counts (QuadPart). Micropolygons that are not opaque are left out; to `rest` go
+/// the first corners of those with anything to be seen. Returns how many samples had no surface before.
+size_t paint(const ShadedGrid& grid, std::span<const PaintedValues> values, const SampleCanvas& canvas,
+             std::vector<size_t>& rest);
 
 } // namespace render

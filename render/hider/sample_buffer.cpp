@@ -104,8 +104,8 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
 }
 
 bool SampleBuffer::can_paint(const ShadedGrid& grid) const {
-  return grid.opaque && grid.times.empty() && !grid.solid && !grid.matte && grid.level.whole() &&
-         !settings_.lens && !settings_.mask && settings_.clipping_planes.empty() && !midpoint_;
+  return grid.times.empty() && !grid.solid && !grid.matte && grid.level.whole() && !settings_.lens &&
+         !settings_.mask && settings_.clipping_planes.empty() && !midpoint_;
 }
 
 void SampleBuffer::paint_grid(const ShadedGrid& grid) {
@@ -121,8 +121,13 @@ void SampleBuffer::paint_grid(const ShadedGrid& grid) {
   const SampleCanvas canvas{covered_,        pattern_.width(),     pattern_.height(),
                             density_,        pattern_.x(),         pattern_.y(),
                             depths().data(), settings_.near_plane, settings_.far_plane};
-  open_ -= paint(grid, values, canvas);
+  not_painted_.clear();
+  open_ -= paint(grid, values, canvas, not_painted_);
   farthest_known_ = false;
+  if (not_painted_.empty()) return;
+  make_layers();
+  for (size_t k : not_painted_)
+    draw_micropolygon(grid, k);
 }
 
 void SampleBuffer::make_layers() {
@@ -390,12 +395,6 @@ float SampleBuffer::farthest() const {
 void SampleBuffer::composite(size_t index) {
   const bool matte_behind = matte_[index] != 0;
   const float nearest = depths()[index], depth_behind = opaque_depth(index);
-  if (fragments_of_[index] == kNone && !matte_behind && nearest < kInfinity) {
-    depths()[index] = depth_behind;
-    const Color O = colour(index, Image::kOi);
-    planes_[Image::kAlpha][index] = (O.x + O.y + O.z) / 3;
-    return;
-  }
   scratch_.clear();
   for (uint32_t f = fragments_of_[index]; f != kNone; f = fragments_[f].next)
     if (fragments_[f].z < nearest) scratch_.push_back(&fragments_[f]);
@@ -455,18 +454,39 @@ void SampleBuffer::find_filled() {
   }
 }
 
-/// Where there are no layers, the coverage is left to find out.
+namespace {
+
+/// Sets the opacities of what has nothing to 0, and alpha to the mean of the three; in vectors.
+void find_alpha(std::span<const float> depth, float* __restrict r, float* __restrict g, float* __restrict b,
+                float* __restrict alpha) {
+  for (size_t k = 0; k < depth.size(); ++k) {
+    const float covered = depth[k] < kInfinity ? 1.0f : 0.0f;
+    r[k] *= covered;
+    g[k] *= covered;
+    b[k] *= covered;
+    alpha[k] = (r[k] + g[k] + b[k]) / 3;
+  }
+}
+
+} // namespace
+
+/// What there are no layers over is soon done: only the coverage is left to find out.
 void SampleBuffer::composite_all() {
+  const size_t count = pattern_.count();
+  std::vector<float>&depth = depths(), &alpha = planes_[Image::kAlpha];
+  alpha.resize(depth.size());
   if (plain_) {
-    const std::vector<float>& depth = depths();
-    std::vector<float>& alpha = planes_[Image::kAlpha];
-    alpha.resize(depth.size());
-    for (size_t k = 0; k < depth.size(); ++k)
+    for (size_t k = 0; k < count; ++k)
       alpha[k] = depth[k] < kInfinity ? 1.0f : 0.0f;
     return;
   }
-  for (size_t k = 0; k < pattern_.count(); ++k)
-    composite(k);
+  find_alpha(std::span(depth.data(), count), planes_[Image::kOi].data(), planes_[Image::kOi + 1].data(),
+             planes_[Image::kOi + 2].data(), alpha.data());
+  for (size_t k = 0; k < count; ++k)
+    if (fragments_of_[k] != kNone || matte_[k] != 0)
+      composite(k);
+    else if (midpoint_)
+      depth[k] = opaque_depth(k);
 }
 
 std::vector<const float*> SampleBuffer::planes() const {

@@ -62,7 +62,7 @@ private:
   };
   static constexpr uint32_t kNone = 0xffffffffu;
 
-  /// Whether all that the grid changes are depths and values of samples.
+  /// Whether all that opaque micropolygons of the grid change are depths and values of samples.
   bool can_paint(const ShadedGrid& grid) const;
   void paint_grid(const ShadedGrid& grid);
   /// From now on samples may have surfaces that are not plainly opaque.
@@ -113,10 +113,11 @@ private:
   std::vector<uint32_t> fragments_of_; ///< in front of what is opaque: the first, or kNone
   std::vector<float> second_;          ///< depth of the opaque surface behind it; for midpoints only
   std::vector<QuadHit> hits_;
-  std::vector<SampleSpan> filled_; ///< of each row, what holds all samples with something
-  std::vector<Vec2> lens_;         ///< each sample's point of the lens, as raster shift without defocus
-  std::vector<Box> lens_boxes_;    ///< the same, of each stratum
-  Box lens_box_;                   ///< and of all of them
+  std::vector<size_t> not_painted_; ///< micropolygons of a grid
+  std::vector<SampleSpan> filled_;  ///< of each row, what holds all samples with something
+  std::vector<Vec2> lens_;          ///< each sample's point of the lens, as raster shift without defocus
+  std::vector<Box> lens_boxes_;     ///< the same, of each stratum
+  Box lens_box_;                    ///< and of all of them
   std::vector<Fragment> fragments_;
   size_t aovs_; ///< floats of variables for each sample
   std::vector<float> fragment_aov_;

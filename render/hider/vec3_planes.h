@@ -4,9 +4,19 @@
 #include "render/state/math.h"
 
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <vector>
 
 namespace render {
+
+/// For vectors whose values are written before they are read.
+template <class T> struct Uninitialized : std::allocator<T> {
+  template <class U> struct rebind {
+    using other = Uninitialized<U>;
+  };
+  template <class U> void construct(U* at) noexcept { ::new (static_cast<void*>(at)) U; }
+};
 
 /// Any number of triples. Each plane is kPadding longer; what is there is of no consequence.
 class Vec3Planes {
@@ -14,6 +24,7 @@ public:
   static constexpr size_t kPadding = 16;
 
   Vec3Planes() = default;
+  /// Of no particular values.
   explicit Vec3Planes(size_t size) : size_(size), values_(3 * pitch()) {}
   Vec3Planes(size_t size, const Vec3& all) : Vec3Planes(size) {
     for (size_t k = 0; k < size; ++k)
@@ -37,7 +48,7 @@ private:
   size_t pitch() const { return size_ + kPadding; }
 
   size_t size_ = 0;
-  std::vector<float> values_;
+  std::vector<float, Uninitialized<float>> values_;
 };
 
 } // namespace render

@@ -92,11 +92,10 @@ Planes ShaderRun::take_copy(const Slot& slot, const Planes& from) {
   size_t planes = static_cast<size_t>(components(slot.type)) * std::max(slot.elements, 1u);
   size_t lanes = slot.varying ? pitch : kMaxLanes;
   Planes to{take(planes * lanes), lanes, slot.varying ? 1u : 0u, slot.type, slot.elements};
-  for (size_t i = 0; i < planes; ++i) {
+  if (!from.data) std::memset(to.data, 0, planes * lanes * sizeof(float));
+  for (size_t i = 0; from.data && i < planes; ++i) {
     float* plane = to.data + i * lanes;
-    if (!from.data)
-      std::fill_n(plane, lanes, 0.0f);
-    else if (from.step && slot.varying)
+    if (from.step && slot.varying)
       std::memcpy(plane, from.data + i * from.pitch, lanes * sizeof(float));
     else
       std::fill_n(plane, lanes, from.data[i * from.pitch]);

@@ -13,14 +13,14 @@ using namespace render;
 constexpr int kPixels = 32, kGrid = 17, kLayers = 4;
 
 /// Slightly turned grids, one behind the other, which cover the bucket together.
-std::vector<ShadedGrid> make_grids(bool opaque) {
+std::vector<ShadedGrid> make_grids() {
   std::vector<ShadedGrid> out;
   for (int layer = 0; layer < kLayers; ++layer)
     for (int part = 0; part < 9; ++part) {
       ShadedGrid& g = out.emplace_back();
       g.nu = g.nv = kGrid;
       g.smooth = true;
-      g.opaque = opaque;
+      g.opaque = true;
       g.hidden.assign((kGrid - 1) * (kGrid - 1), ShadedGrid::kDrawn);
       g.position = g.Ci = Vec3Planes(kGrid * kGrid);
       g.Oi = Vec3Planes(kGrid * kGrid, Color(1.0f));
@@ -41,10 +41,14 @@ struct Bench {
   SampleBuffer buffer;
   Image image{{0, 0, kPixels, kPixels}, 0};
 
-  explicit Bench(bool opaque) : settings(make_settings()), grids(make_grids(opaque)), buffer(settings) {}
-  static SamplingSettings make_settings() {
+  explicit Bench(const Camera* hit_by_hit)
+      : settings(make_settings(hit_by_hit)), grids(make_grids()), buffer(settings) {}
+  /// With a clipping plane the hider looks at each hit, even if the plane is behind the eye.
+  static SamplingSettings make_settings(const Camera* hit_by_hit) {
     SamplingSettings out;
     out.reconstruction.filter = {FilterKind::kGaussian, 2, 2};
+    out.camera = hit_by_hit;
+    if (hit_by_hit) out.clipping_planes = {{Vec3(0, 0, -1), Vec3(0, 0, -1)}};
     return out;
   }
   void run() {
@@ -58,7 +62,8 @@ struct Bench {
 } // namespace
 
 int main(int argc, char** argv) {
-  Bench painted(true), hit(false);
+  const Camera camera{Options()};
+  Bench painted(nullptr), hit(&camera);
   if (argc > 1 && std::strcmp(argv[1], "--check") == 0) {
     painted.run();
     hit.run();

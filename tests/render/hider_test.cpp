@@ -155,8 +155,9 @@ TEST(Hider, clipping_planes_cut_within_a_micropolygon) {
   EXPECT_EQ(i.pixel(2, 1)[Image::kAlpha], 1);
 }
 
-TEST(Hider, opaque_grids_are_painted_as_layers_are_composited) {
-  // Folded, thin and large micropolygons over each other; a transparent sheet makes layers of all of them.
+TEST(Hider, painted_grids_look_as_those_drawn_hit_by_hit) {
+  // Folded, thin and large micropolygons over each other, smooth and not; opaque, half-transparent, partly
+  // both and not there at all.
   std::mt19937 random(5);
   std::uniform_real_distribution<float> at(-2, 18), depth(1, 9), shade(0, 1);
   SamplingSettings s = settings(3);
@@ -173,7 +174,7 @@ TEST(Hider, opaque_grids_are_painted_as_layers_are_composited) {
     g.aov_floats = 2;
     g.opaque = true;
     g.hidden.assign(6, ShadedGrid::kDrawn);
-    g.hidden[n % 6] = ShadedGrid::kNotDrawn;
+    g.hidden[static_cast<size_t>(n % 6)] = ShadedGrid::kNotDrawn;
     g.position = g.Ci = Vec3Planes(12);
     g.Oi = Vec3Planes(12, kWhite);
     Vec3 corner(at(random), at(random), depth(random));
@@ -183,19 +184,23 @@ TEST(Hider, opaque_grids_are_painted_as_layers_are_composited) {
       g.aov.insert(g.aov.end(), {shade(random), shade(random)});
     }
   }
-  Image painted = drawn(grids, s, 16);
-  for (size_t first : {size_t{0}, grids.size() / 2}) { // all slowly, or painted among layers
-    for (size_t n = first; n < grids.size(); ++n)
-      grids[n].opaque = false;
-    std::vector<ShadedGrid> more = grids;
-    more.insert(more.begin() + 30, sheet(8.4f, kBlack, kBlack));
-    more[30].aov_floats = 2;
-    more[30].aov.assign(8, 0.0f);
-    Image composited = drawn(more, s, 16);
-    EXPECT_EQ(painted.data, composited.data) << first;
-    for (ShadedGrid& g : grids)
-      g.opaque = true;
+  // A clipping plane makes the hider look at each hit, even if it is behind the eye.
+  SamplingSettings slow = s;
+  Camera camera{Options()};
+  slow.camera = &camera;
+  slow.clipping_planes = {{Vec3(0, 0, -1), Vec3(0, 0, -1)}};
+  EXPECT_EQ(drawn(grids, s, 16).data, drawn(grids, slow, 16).data);
+  for (size_t n = 0; n < grids.size(); ++n) {
+    ShadedGrid& g = grids[n];
+    g.opaque = n % 3 == 0;
+    for (size_t k = 0; k < 12 && n % 3 > 0; ++k) {
+      if ((k + n) % 4 == 0) g.Oi.set(k, Color(shade(random), 1, shade(random)));
+      if (n % 7 != 0 && k > 4) continue;
+      g.Oi.set(k, kBlack);
+      if (n % 2 == 1) g.Ci.set(k, kBlack);
+    }
   }
+  EXPECT_EQ(drawn(grids, s, 16).data, drawn(grids, slow, 16).data);
 }
 
 TEST(Hider, what_is_painted_over_a_hole_is_seen) {
