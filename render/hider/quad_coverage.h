@@ -157,19 +157,9 @@ HWY_INLINE void for_rows(size_t width, const Window& window, Look&& look) {
   }
 }
 
-/// Calls `found(rows, coverage)` for all samples of the window, in vectors, of which some are in the
-/// micropolygon; `box` is around it. The raster positions are in the planes x and y, `width` samples to a
-/// row.
-template <class Window, class Found>
-HWY_INLINE void for_covered(const WideQuad& quad, const WideBox& box, const float* x, const float* y,
-                            size_t width, const Window& window, Found&& found) {
-  auto look = [&](const auto& rows, M in_window) HWY_ATTR {
-    const WideVec2 at{rows.load(x), rows.load(y)};
-    const M looked_at = hn::And(box.contains(at), in_window);
-    if (hn::AllFalse(kWide, looked_at)) return;
-    const WideCoverage covered = quad.cover(at, looked_at);
-    if (!hn::AllFalse(kWide, hn::Or(covered.first, covered.second))) found(rows, covered);
-  };
+/// Calls look(samples, lanes in the window) for all of a window.
+template <class Window, class Look>
+HWY_INLINE void for_window(size_t width, const Window& window, Look&& look) {
   // Most micropolygons are so small that several rows of their windows fit into a vector.
   const size_t columns = window.i1 - window.i0;
   if constexpr (kLanes >= 8)
@@ -179,6 +169,21 @@ HWY_INLINE void for_covered(const WideQuad& quad, const WideBox& box, const floa
   for (size_t j = window.j0; j < window.j1; ++j)
     for (size_t i = window.i0; i < window.i1; i += kLanes)
       look(SampleRows<1>(j * width + i, 1, width), hn::FirstN(kWide, window.i1 - i));
+}
+
+/// Calls `found(rows, coverage)` for all samples of the window, in vectors, of which some are in the
+/// micropolygon; `box` is around it. The raster positions are in the planes x and y, `width` samples to a
+/// row.
+template <class Window, class Found>
+HWY_INLINE void for_covered(const WideQuad& quad, const WideBox& box, const float* x, const float* y,
+                            size_t width, const Window& window, Found&& found) {
+  for_window(width, window, [&](const auto& rows, M in_window) HWY_ATTR {
+    const WideVec2 at{rows.load(x), rows.load(y)};
+    const M looked_at = hn::And(box.contains(at), in_window);
+    if (hn::AllFalse(kWide, looked_at)) return;
+    const WideCoverage covered = quad.cover(at, looked_at);
+    if (!hn::AllFalse(kWide, hn::Or(covered.first, covered.second))) found(rows, covered);
+  });
 }
 
 } // namespace HWY_NAMESPACE

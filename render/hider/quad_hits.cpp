@@ -87,42 +87,87 @@ size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const
   return finder.count();
 }
 
+/// A moving micropolygon as each lane's sample sees it: at its time, through its point of the lens.
+class MovingFinder {
+public:
+  HWY_INLINE MovingFinder(const MovingQuad& q, bool both, const SampleField& field, QuadHit* hits)
+      : finder_(both, field.limit, hits), box_(q.low, q.high), q_(q), focus_(field.focus) {
+    const float rate = 1 / (q.t1 - q.t0);
+    for (size_t c = 0; c < 4; ++c)
+      speed_[c] = (q.to[c] - q.from[c]) * rate;
+  }
+  size_t count() const { return finder_.count(); }
+
+  /// Those of `looked_at` that the box around all of the motion holds.
+  HWY_INLINE M near(const WideVec2& at, M looked_at) const { return hn::And(box_.contains(at), looked_at); }
+  /// `shift`: of what has a defocus of 1; null: no lens.
+  HWY_INLINE void look(const WideVec2& at, V time, const WideVec2* shift, M looked_at, I samples) {
+    const V t0 = hn::Set(kWide, q_.t0), one = hn::Set(kWide, 1.0f), focus = hn::Set(kWide, focus_);
+    looked_at = hn::And(looked_at, hn::And(hn::Ge(time, t0), hn::Lt(time, hn::Set(kWide, q_.t1))));
+    time = hn::Sub(time, t0);
+    WideQuad quad;
+    for (size_t c = 0; c < 4; ++c) {
+      const Vec3 from = q_.from[c], speed = speed_[c];
+      WideVec2& p = quad.p[c];
+      p = {hn::Add(hn::Set(kWide, from.x), hn::Mul(hn::Set(kWide, speed.x), time)),
+           hn::Add(hn::Set(kWide, from.y), hn::Mul(hn::Set(kWide, speed.y), time))};
+      quad.z[c] = hn::Add(hn::Set(kWide, from.z), hn::Mul(hn::Set(kWide, speed.z), time));
+      if (!shift) continue;
+      const V defocus = hn::Sub(focus, hn::Div(one, quad.z[c]));
+      p.x = hn::Add(p.x, hn::Mul(shift->x, defocus));
+      p.y = hn::Add(p.y, hn::Mul(shift->y, defocus));
+    }
+    finder_.add(quad, quad.cover(at, looked_at), samples);
+  }
+
+private:
+  Finder finder_;
+  WideBox box_;
+  const MovingQuad& q_;
+  Vec3 speed_[4];
+  float focus_;
+};
+
 size_t find_moving(const MovingQuad& q, bool both, const SampleField& field, const uint32_t* order,
                    size_t columns, const SampleWindow& window, QuadHit* hits) {
-  WideBox box(q.low, q.high);
   const auto* lens = reinterpret_cast<const float*>(field.lens);
-  V t0 = hn::Set(kWide, q.t0), t1 = hn::Set(kWide, q.t1), focus = hn::Set(kWide, field.focus),
-    one = hn::Set(kWide, 1.0f);
-  float rate = 1 / (q.t1 - q.t0);
-  Finder finder(both, field.limit, hits);
+  MovingFinder finder(q, both, field, hits);
   for (size_t j = window.j0; j < window.j1; ++j)
     for (size_t i = window.i0; i < window.i1; i += hn::Lanes(kWide)) {
       I samples = hn::LoadU(kIndices, reinterpret_cast<const int32_t*>(order) + j * columns + i);
       WideVec2 at{hn::GatherIndex(kWide, field.x, samples), hn::GatherIndex(kWide, field.y, samples)};
-      M looked_at = hn::And(box.contains(at), hn::FirstN(kWide, window.i1 - i));
+      const M looked_at = finder.near(at, hn::FirstN(kWide, window.i1 - i));
       if (hn::AllFalse(kWide, looked_at)) continue;
-      V time = hn::GatherIndex(kWide, field.time, samples);
-      looked_at = hn::And(looked_at, hn::And(hn::Ge(time, t0), hn::Lt(time, t1)));
-      time = hn::Sub(time, t0);
-      WideVec2 shift{hn::Zero(kWide), hn::Zero(kWide)};
+      const V time = hn::GatherIndex(kWide, field.time, samples);
       if (lens) {
         I pairs = hn::ShiftLeft<1>(samples);
-        shift = {hn::GatherIndex(kWide, lens, pairs), hn::GatherIndex(kWide, lens + 1, pairs)};
+        const WideVec2 shift{hn::GatherIndex(kWide, lens, pairs), hn::GatherIndex(kWide, lens + 1, pairs)};
+        finder.look(at, time, &shift, looked_at, samples);
+      } else {
+        finder.look(at, time, nullptr, looked_at, samples);
       }
-      WideQuad quad;
-      for (size_t c = 0; c < 4; ++c) {
-        Vec3 from = q.from[c], speed = (q.to[c] - from) * rate;
-        WideVec2& p = quad.p[c];
-        p = {hn::Add(hn::Set(kWide, from.x), hn::Mul(hn::Set(kWide, speed.x), time)),
-             hn::Add(hn::Set(kWide, from.y), hn::Mul(hn::Set(kWide, speed.y), time))};
-        quad.z[c] = hn::Add(hn::Set(kWide, from.z), hn::Mul(hn::Set(kWide, speed.z), time));
-        if (!lens) continue;
-        V defocus = hn::Sub(focus, hn::Div(one, quad.z[c]));
-        p.x = hn::Add(p.x, hn::Mul(shift.x, defocus));
-        p.y = hn::Add(p.y, hn::Mul(shift.y, defocus));
-      }
-      finder.add(quad, quad.cover(at, looked_at), samples);
     }
+  return finder.count();
+}
+
+size_t find_slow(const MovingQuad& q, bool both, const SampleField& field, const SampleWindow& window,
+                 QuadHit* hits) {
+  MovingFinder finder(q, both, field, hits);
+  for_window(field.width, window, [&](const auto& rows, M in_window) HWY_ATTR {
+    const WideVec2 at{rows.load(field.x), rows.load(field.y)};
+    const M looked_at = finder.near(at, in_window);
+    if (hn::AllFalse(kWide, looked_at)) return;
+    const V time = rows.load(field.time);
+    const I samples = rows.numbers();
+    if (field.lens) {
+      const auto* lens = reinterpret_cast<const float*>(field.lens);
+      I pairs = hn::ShiftLeft<1>(samples);
+      const WideVec2 shift{hn::GatherIndex(kWide, lens, pairs), hn::GatherIndex(kWide, lens + 1, pairs)};
+      finder.look(at, time, &shift, looked_at, samples);
+    } else {
+      finder.look(at, time, nullptr, looked_at, samples);
+    }
+  });
   return finder.count();
 }
 
@@ -134,6 +179,7 @@ HWY_AFTER_NAMESPACE();
 namespace render {
 const auto kFindStill = SL_BEST(find_still);
 const auto kFindMoving = SL_BEST(find_moving);
+const auto kFindSlow = SL_BEST(find_slow);
 
 size_t quad_hits(const Vec3 (&p)[4], bool both, const SampleField& field, const SampleWindow& window,
                  QuadHit* hits) {
@@ -143,6 +189,11 @@ size_t quad_hits(const Vec3 (&p)[4], bool both, const SampleField& field, const 
 size_t moving_hits(const MovingQuad& quad, bool both, const SampleField& field, const uint32_t* order,
                    size_t columns, const SampleWindow& window, QuadHit* hits) {
   return kFindMoving(quad, both, field, order, columns, window, hits);
+}
+
+size_t slow_hits(const MovingQuad& quad, bool both, const SampleField& field, const SampleWindow& window,
+                 QuadHit* hits) {
+  return kFindSlow(quad, both, field, window, hits);
 }
 
 } // namespace render

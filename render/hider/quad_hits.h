@@ -27,7 +27,7 @@ struct SampleField {
   const float *x, *y;          ///< raster
   const float* limit;          ///< only what is nearer is a hit; null: everything is
   size_t width;                ///< samples in a row
-  const float* time = nullptr; ///< part of the shutter time; only for moving_hits
+  const float* time = nullptr; ///< part of the shutter time; only where things move
   const Vec2* lens = nullptr;  ///< shift on the raster of what has a defocus of 1; null: no lens
   float focus = 0;             ///< 1 / focal distance
 };
@@ -49,5 +49,9 @@ size_t quad_hits(const Vec3 (&p)[4], bool both, const SampleField& field, const 
 /// row, kPadding longer than needed. The window is one of pixels.
 size_t moving_hits(const MovingQuad& quad, bool both, const SampleField& field, const uint32_t* order,
                    size_t columns, const SampleWindow& window, QuadHit* hits);
+
+/// The same of all samples of a window, of what moves so little that most of them may see it.
+size_t slow_hits(const MovingQuad& quad, bool both, const SampleField& field, const SampleWindow& window,
+                 QuadHit* hits);
 
 } // namespace render

@@ -74,6 +74,7 @@ void SampleBuffer::begin(PixelRect rect) {
   lens_.clear();
   for (size_t i = 0; settings_.lens && i < open_; ++i)
     lens_.push_back(settings_.lens->lens_to_raster(pattern_.lens(i)));
+  if (settings_.lens) lens_.resize(open_ + SampleField::kPadding);
 }
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
@@ -89,7 +90,7 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
   auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
   bool moving = settings_.lens || !grid.times.empty();
   for (size_t j = 0, m = 0; j + 1 < nv; ++j) {
-    if (!moving && !grid.rows.empty() && !grid.rows[j].touches(covered_)) {
+    if (!settings_.lens && !grid.rows.empty() && !grid.rows[j].touches(covered_)) {
       m += nu - 1;
       continue;
     }
@@ -211,6 +212,7 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
   if (!find_window(Vec2(everywhere.min) - origin_ - kSlack, Vec2(everywhere.max) - origin_ + kSlack,
                    covered_.width(), covered_.height(), window))
     return;
+  if (draw_slow(grid, k, window)) return;
   auto n = static_cast<float>(pattern_.strata());
   for (int s = 0; s < pattern_.strata(); ++s) {
     float end = static_cast<float>(s + 1) / n;
@@ -230,6 +232,39 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
       draw_segment(grid, k, quad, s);
     }
   }
+}
+
+/// What stays within a few pixels: all their samples are looked at together.
+bool SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k, const SampleWindow& pixels) {
+  constexpr size_t kFew = 16;
+  if (pixels.count() > kFew) return false;
+  const auto nu = static_cast<size_t>(grid.nu);
+  const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
+  MovingQuad quad;
+  for (size_t c = 0; c < 4; ++c)
+    quad.to[c] = grid.position[corner[c]];
+  quad.t1 = 0;
+  for (size_t segment = 0; segment < std::max<size_t>(grid.later.size(), 1); ++segment) {
+    quad.t0 = quad.t1;
+    quad.t1 = grid.later.empty() ? 1 : grid.times[segment + 1];
+    Box box;
+    for (size_t c = 0; c < 4; ++c) {
+      quad.from[c] = quad.to[c];
+      if (!grid.later.empty()) quad.to[c] = grid.later[segment][corner[c]];
+      box.add(quad.from[c]);
+      box.add(quad.to[c]);
+    }
+    add_lens(lens_box_, box);
+    quad.low = Vec2(box.min) - kSlack;
+    quad.high = Vec2(box.max) + kSlack;
+    SampleWindow samples;
+    if (!find_window((quad.low - origin_) * density_, (quad.high - origin_) * density_, pattern_.width(),
+                     pattern_.height(), samples))
+      continue;
+    make_room(samples);
+    hit_all(grid, k, slow_hits(quad, grid.solid != nullptr, field(grid), samples, hits_.data()));
+  }
+  return true;
 }
 
 void SampleBuffer::draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum) {

@@ -159,7 +159,7 @@ void SamplePattern::make_lens_boxes() {
 
 void SamplePattern::add_strata(PixelRect area) {
   auto n = static_cast<size_t>(strata_);
-  time_.resize(count_);
+  time_.resize(count_ + kPadding);
   if (with_lens_) lens_.resize(count_);
   of_stratum_.resize(count_ + kPadding);
   std::vector<int> order(n);

@@ -41,9 +41,9 @@ public:
   Vec2 at(size_t k) const { return {x_[k], y_[k]}; } ///< raster
   const float* x() const { return x_.data(); }       ///< kPadding longer than count()
   const float* y() const { return y_.data(); }
-  float time(size_t k) const { return time_[k]; } ///< part of the shutter time, [0, 1)
-  const float* times() const { return time_.data(); }
-  Vec2 lens(size_t k) const { return lens_[k]; }    ///< in the unit disk
+  float time(size_t k) const { return time_[k]; }     ///< part of the shutter time, [0, 1)
+  const float* times() const { return time_.data(); } ///< kPadding longer
+  Vec2 lens(size_t k) const { return lens_[k]; }      ///< in the unit disk
   float level(size_t k) const { return level_[k]; } ///< [0, 1); each nth of it has one sample of every pixel
 
   int strata() const { return strata_; }

@@ -153,20 +153,20 @@ void find_range(const float* values, size_t count, float& least, float& most) {
   most = *std::max_element(high, high + kLanes);
 }
 
-std::vector<RasterBounds> bounds_of_rows(const ShadedGrid& grid) {
-  const auto nu = static_cast<size_t>(grid.nu);
-  std::vector<RasterBounds> out(static_cast<size_t>(grid.nv));
-  for (size_t j = 0; j < out.size(); ++j) {
-    find_range(grid.position.plane(0) + j * nu, nu, out[j].min.x, out[j].max.x);
-    find_range(grid.position.plane(1) + j * nu, nu, out[j].min.y, out[j].max.y);
+/// Makes room in the bounds of a grid's rows for its points at some time.
+void add_to_rows(const Vec3Planes& position, ShadedGrid& grid) {
+  const auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
+  grid.rows.resize(nv - 1);
+  for (size_t j = 0; j < nv; ++j) {
+    RasterBounds points;
+    find_range(position.plane(0) + j * nu, nu, points.min.x, points.max.x);
+    find_range(position.plane(1) + j * nu, nu, points.min.y, points.max.y);
+    // They belong to two rows of micropolygons.
+    for (size_t row = j > 0 ? j - 1 : 0; row <= j && row < nv - 1; ++row) {
+      grid.rows[row].add(points.min);
+      grid.rows[row].add(points.max);
+    }
   }
-  // From rows of points to rows of micropolygons.
-  for (size_t j = 0; j + 1 < out.size(); ++j) {
-    out[j].add(out[j + 1].min);
-    out[j].add(out[j + 1].max);
-  }
-  out.pop_back();
-  return out;
 }
 
 } // namespace
@@ -212,18 +212,18 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   hide_behind_eye(grid, camera, out);
   if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
   if (outline) snap(*outline, out, out.position);
-  out.rows = bounds_of_rows(out);
+  add_to_rows(out.position, out);
   return out;
 }
 
 void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const Camera& camera,
                    const GridOutline* outline) {
   if (shaded.times.empty()) shaded.times.push_back(0);
-  shaded.rows.clear();
   shaded.times.push_back(time);
   hide_behind_eye(grid, camera, shaded);
   Vec3Planes& moved = shaded.later.emplace_back(project_all(grid, camera));
   if (outline) snap(*outline, shaded, moved);
+  add_to_rows(moved, shaded);
 }
 
 } // namespace render

@@ -38,7 +38,7 @@ struct ShadedGrid {
   /// For each micropolygon. What faces away and must not be seen still bounds a solid.
   enum Visibility : uint8_t { kDrawn, kNotDrawn, kFacesAway };
   std::vector<uint8_t> hidden;
-  /// Around each row of micropolygons, where it is in focus; empty: unknown, or the grid moves.
+  /// Around each row of micropolygons at all times, where it is in focus; empty: unknown.
   std::vector<RasterBounds> rows;
   std::shared_ptr<const SolidTree> solid; ///< that the surface belongs to; null: none
   SolidTree::NodeIndex solid_primitive = 0;

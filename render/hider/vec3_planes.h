@@ -12,9 +12,7 @@ namespace render {
 
 /// For vectors whose values are written before they are read.
 template <class T> struct Uninitialized : std::allocator<T> {
-  template <class U> struct rebind {
-    using other = Uninitialized<U>;
-  };
+  template <class U> struct rebind { using other = Uninitialized<U>; };
   template <class U> void construct(U* at) noexcept { ::new (static_cast<void*>(at)) U; }
 };
 

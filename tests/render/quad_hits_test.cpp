@@ -154,6 +154,53 @@ TEST(QuadHits, moving_quads_are_where_they_are_at_each_samples_time) {
   }
 }
 
+TEST(QuadHits, slow_ones_are_those_of_all_strata) {
+  SamplePattern pattern(kSize, true, true);
+  pattern.cover(kArea);
+  std::vector<Vec2> lens;
+  for (size_t k = 0; k < pattern.count(); ++k)
+    lens.push_back(pattern.lens(k) * 2.0f);
+  lens.resize(lens.size() + SampleField::kPadding);
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> x(-1, 6), y(-1, 5), z(1, 3), step(-1, 1);
+  for (int round = 0; round < 50; ++round) {
+    SampleField field{pattern.x(), pattern.y(), nullptr, static_cast<size_t>(pattern.width())};
+    field.time = pattern.times();
+    if (round % 2 == 0) field.lens = lens.data();
+    field.focus = 0.6f;
+    MovingQuad quad;
+    quad.t0 = round % 3 == 0 ? 0.25f : 0;
+    quad.t1 = round % 3 == 1 ? 0.75f : 1;
+    quad.low = Vec2(-99);
+    quad.high = Vec2(99);
+    for (size_t c = 0; c < 4; ++c) {
+      quad.from[c] = {x(random), y(random), z(random)};
+      quad.to[c] = quad.from[c] + Vec3(step(random), step(random), 0.3f * step(random));
+    }
+    const SampleWindow all{0, static_cast<size_t>(pattern.width()), 0, static_cast<size_t>(pattern.height())};
+    std::vector<QuadHit> slow(2 * all.count() + SampleField::kPadding), listed;
+    slow.resize(slow_hits(quad, true, field, all, slow.data()));
+    std::vector<QuadHit> room(2 * pattern.count() + SampleField::kPadding);
+    const SampleWindow pixels{0, static_cast<size_t>(kArea.width()), 0, static_cast<size_t>(kArea.height())};
+    for (int s = 0; s < pattern.strata(); ++s) {
+      size_t count = moving_hits(quad, true, field, pattern.of_stratum(s), pixels.i1, pixels, room.data());
+      listed.insert(listed.end(), room.begin(), room.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    auto order = [](const QuadHit& a, const QuadHit& b) {
+      return std::pair(a.sample, a.part) < std::pair(b.sample, b.part);
+    };
+    std::sort(slow.begin(), slow.end(), order);
+    std::sort(listed.begin(), listed.end(), order);
+    ASSERT_EQ(slow.size(), listed.size()) << round;
+    for (size_t k = 0; k < slow.size(); ++k) {
+      EXPECT_EQ(slow[k].sample, listed[k].sample);
+      EXPECT_EQ(slow[k].part, listed[k].part);
+      EXPECT_EQ(slow[k].z, listed[k].z);
+      EXPECT_EQ(slow[k].weights[1], listed[k].weights[1]);
+    }
+  }
+}
+
 TEST(WindowWeights, are_those_of_the_filter) {
   SamplePattern pattern(kSize, false, false);
   pattern.cover(kArea);
