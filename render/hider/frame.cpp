@@ -99,6 +99,7 @@ private:
   static void count(const Primitive& primitive, const slvm::Grid& grid,
                     std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
+  template <class F> void for_all(size_t count, F&& f) const;
 
   const Scene& scene_;
   const Options& options_;
@@ -122,14 +123,14 @@ private:
 Image FrameRenderer::run(FrameReport& report) {
   report.primitives += scene_.primitives.size();
   if (image_.rect.empty()) return std::move(image_);
+  // Also for what rays build.
   tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads_));
-  tbb::task_arena arena(threads_);
   std::vector<Worker> workers(static_cast<size_t>(threads_));
-  arena.execute([&] {
+  auto make = [&] {
     split_all();
     make_buckets();
     // One task a thread, each taking buckets in scan order: that keeps the life of grids short.
-    tbb::parallel_for(size_t{0}, workers.size(), [&](size_t w) {
+    for_all(workers.size(), [&](size_t w) {
       Worker& worker = workers[w];
       for (size_t b; (b = next_bucket_.fetch_add(1)) < buckets_.size();) {
         if (!worker.shader) worker.shader = shading_.make_grid_shader();
@@ -138,7 +139,11 @@ Image FrameRenderer::run(FrameReport& report) {
         report_progress();
       }
     });
-  });
+  };
+  if (threads_ == 1)
+    make();
+  else
+    tbb::task_arena(threads_).execute(make);
   report.primitives += content_.primitives();
   report.grids += batch_.tasks.size() + content_.grids();
   for (const Worker& w : workers) {
@@ -157,6 +162,13 @@ Image FrameRenderer::run(FrameReport& report) {
   return std::move(image_);
 }
 
+/// One thread does it by itself: to set threads up takes a twentieth of the time of a very small picture.
+template <class F> void FrameRenderer::for_all(size_t count, F&& f) const {
+  if (threads_ > 1) return tbb::parallel_for(size_t{0}, count, f);
+  for (size_t k = 0; k < count; ++k)
+    f(k);
+}
+
 void FrameRenderer::split_all() {
   SplitSettings& s = split_;
   s.camera = &camera_;
@@ -172,7 +184,7 @@ void FrameRenderer::split_all() {
   constexpr size_t kChunk = 64;
   size_t count = scene_.primitives.size(), chunks = (count + kChunk - 1) / kChunk;
   std::vector<std::vector<GridTask>> parts(chunks);
-  tbb::parallel_for(size_t{0}, chunks, [&](size_t c) {
+  for_all(chunks, [&](size_t c) {
     for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
       split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
     join_tasks(scene_.primitives, parts[c]);
@@ -208,7 +220,7 @@ void FrameRenderer::make_buckets() {
       lazy_batches(scene_.procedurals, 0, camera_, layout_, {0, layout_.columns - 1, 0, layout_.rows - 1});
   for (const auto& lazy : batch_.procedurals)
     for_each(lazy->buckets, [&](Bucket& b) { b.procedurals.push_back(lazy.get()); });
-  tbb::parallel_for(size_t{0}, buckets_.size(), [&](size_t b) {
+  for_all(buckets_.size(), [&](size_t b) {
     std::sort(buckets_[b].tasks.begin(), buckets_[b].tasks.end(), [&](uint32_t x, uint32_t y) {
       const GridTask &s = batch_.tasks[x], &t = batch_.tasks[y];
       if (s.zmin != t.zmin) return s.zmin < t.zmin;

@@ -81,7 +81,7 @@ void SmoothQuad::evaluate(const UvPoints& at, SurfaceLattice& out) const {
   flat().evaluate(at, out);
   const std::array<Vec3, 4> n = mesh_->normals(quad_);
   at.for_each([&](size_t k, float a, float b) {
-    out.N[k] = (n[0] * (1 - a) + n[1] * a) * (1 - b) + (n[2] * (1 - a) + n[3] * a) * b;
+    out.N.set(k, (n[0] * (1 - a) + n[1] * a) * (1 - b) + (n[2] * (1 - a) + n[3] * a) * b);
   });
 }
 

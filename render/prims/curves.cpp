@@ -67,11 +67,11 @@ public:
       return Row{section(v), section(v - kStep), section(v + kStep), 2 * kStep};
     };
     at.for_each(column, row, [&](size_t k, double x, const Row& r) {
-      out.P[k] = Vec3(r.here.at(x));
-      out.dPdu[k] = Vec3(r.here.side);
-      out.dPdv[k] = Vec3((r.after.at(x) - r.before.at(x)) / r.step);
+      out.P.set(k, Vec3(r.here.at(x)));
+      out.dPdu.set(k, Vec3(r.here.side));
+      out.dPdv.set(k, Vec3((r.after.at(x) - r.before.at(x)) / r.step));
       Vec3d n = glm::cross(r.here.side, r.here.tangent);
-      out.N[k] = Vec3(glm::length(n) > 0 ? glm::normalize(n) : r.here.facing);
+      out.N.set(k, Vec3(glm::length(n) > 0 ? glm::normalize(n) : r.here.facing));
     });
   }
   static constexpr std::array<int, 2> kCoarsest{1, 4};
@@ -133,10 +133,10 @@ public:
     at.for_each([&](size_t k, float ui, float vj) {
       float a = 2 * ui - 1, b = 2 * vj - 1;
       float ra = std::sqrt(1 - a * a / 2), rb = std::sqrt(1 - b * b / 2);
-      out.P[k] = centre_ + x_ * (a * rb) + y_ * (b * ra);
-      out.dPdu[k] = 2.0f * (x_ * rb - y_ * (b * a / (2 * ra)));
-      out.dPdv[k] = 2.0f * (y_ * ra - x_ * (a * b / (2 * rb)));
-      out.N[k] = glm::cross(x_, y_);
+      out.P.set(k, centre_ + x_ * (a * rb) + y_ * (b * ra));
+      out.dPdu.set(k, 2.0f * (x_ * rb - y_ * (b * a / (2 * ra))));
+      out.dPdv.set(k, 2.0f * (y_ * ra - x_ * (a * b / (2 * rb))));
+      out.N.set(k, glm::cross(x_, y_));
     });
   }
   std::array<int, 2> coarsest() const override { return {2, 2}; }

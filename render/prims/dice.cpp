@@ -29,33 +29,64 @@ Vec3 read(const slvm::Planes& p, size_t k) {
   return {p.get(0, k), p.get(1, k), p.get(2, k)};
 }
 
-/// Normals go by the inverse transpose.
-Vec3 normal_by(const Matrix4& inverse, Vec3 n) {
-  auto row = [&](int c) { return inverse(c, 0) * n.x + inverse(c, 1) * n.y + inverse(c, 2) * n.z; };
-  return {row(0), row(1), row(2)};
-}
-
 Matrix4 scaled(Matrix4 m, float by) {
   for (float& x : m.m)
     x *= by;
   return m;
 }
 
-/// From points to planes.
-template <class F> void transform_all(const Vec3* from, size_t count, Triple to, F&& transform) {
-  float* __restrict x = to.x, * __restrict y = to.y, * __restrict z = to.z;
-  for (size_t k = 0; k < count; ++k) {
-    Vec3 p = transform(from[k]);
-    x[k] = p.x;
-    y[k] = p.y;
-    z[k] = p.z;
+/// What is done to each component of triples alike: sums of the three by weights.
+struct LinearMap {
+  float weight[3][3];
+  Vec3 origin{0.0f};
+
+  Vec3 operator()(const Vec3& v) const {
+    auto sum = [&](int c) {
+      return v.x * weight[c][0] + v.y * weight[c][1] + v.z * weight[c][2] + origin[c];
+    };
+    return {sum(0), sum(1), sum(2)};
+  }
+};
+
+LinearMap of_vectors(const Matrix4& m) {
+  LinearMap out;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < 3; ++i)
+      out.weight[c][i] = m(i, c);
+  return out;
+}
+
+LinearMap of_points(const Matrix4& affine) {
+  LinearMap out = of_vectors(affine);
+  out.origin = {affine(3, 0), affine(3, 1), affine(3, 2)};
+  return out;
+}
+
+/// Normals go by the inverse transpose.
+LinearMap of_normals(const Matrix4& inverse) {
+  LinearMap out;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < 3; ++i)
+      out.weight[c][i] = inverse(c, i);
+  return out;
+}
+
+/// `count` triples from `first` on.
+void map_all(const LinearMap& map, const Vec3Planes& from, size_t first, size_t count, Triple to) {
+  const float *x = from.plane(0) + first, *y = from.plane(1) + first, *z = from.plane(2) + first;
+  float* out[3] = {to.x + first, to.y + first, to.z + first};
+  for (int c = 0; c < 3; ++c) {
+    const float a = map.weight[c][0], b = map.weight[c][1], d = map.weight[c][2], origin = map.origin[c];
+    float* __restrict own = out[c];
+    for (size_t k = 0; k < count; ++k)
+      own[k] = x[k] * a + y[k] * b + z[k] * d + origin;
   }
 }
 
-void transform_points(const Matrix4& m, const Vec3* from, size_t count, Triple to) {
-  if (!is_affine(m)) return transform_all(from, count, to, [&](Vec3 p) { return transform_point(m, p); });
-  const Vec3 origin(m(3, 0), m(3, 1), m(3, 2));
-  transform_all(from, count, to, [&](Vec3 p) { return transform_vector(m, p) + origin; });
+void transform_points(const Matrix4& m, const Vec3Planes& from, size_t first, size_t count, Triple to) {
+  if (is_affine(m)) return map_all(of_points(m), from, first, count, to);
+  for (size_t k = first; k < first + count; ++k)
+    to.set(k, transform_point(m, from[k]));
 }
 
 std::vector<float> parameters(float from, float to, int n) {
@@ -112,21 +143,18 @@ void Dicer::set_geometry(const SurfaceLattice& lattice) {
     const Primitive& primitive = *part.primitive;
     const Matrix4 m = primitive.state->object_to_camera, inverse = primitive.state->camera_to_object;
     const size_t first = part.first, count = part.at.size();
-    auto here = [&](Triple to) { return Triple{to.x + first, to.y + first, to.z + first}; };
-    transform_points(m, lattice.P.data() + first, count, here(P));
-    auto tangent = [&](Global g, const std::vector<Vec3>& from, float width) {
+    transform_points(m, lattice.P, first, count, P);
+    auto tangent = [&](Global g, const Vec3Planes& from, float width) {
       if (!read_.has(g)) return;
       const Matrix4 by = scaled(m, 1 / width);
-      transform_all(from.data() + first, count, here(triple(grid_, g)),
-                    [&](Vec3 d) { return transform_vector(by, d); });
+      map_all(of_vectors(by), from, first, count, triple(grid_, g));
     };
     tangent(Global::kdPdu, lattice.dPdu, primitive.uv.u1 - primitive.uv.u0);
     tangent(Global::kdPdv, lattice.dPdv, primitive.uv.v1 - primitive.uv.v0);
     // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
     // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
     const Matrix4 n = scaled(inverse, grid_.flip_normals == primitive.state->mirrored ? 1.0f : -1.0f);
-    transform_all(lattice.N.data() + first, count, here(N),
-                  [&](Vec3 normal) { return normal_by(n, normal); });
+    map_all(of_normals(n), lattice.N, first, count, N);
   }
   const size_t points = grid_.points();
   if (read_.has(Global::kI)) {
@@ -211,7 +239,7 @@ void Dicer::to_camera(const PrimitiveState& state, slvm::Type type, float* plane
     else if (type == slvm::Type::kVector)
       each(planes, [&](Vec3 v) { return transform_vector(m, v); });
     else
-      each(planes, [&](Vec3 n) { return normal_by(state.camera_to_object, n); });
+      each(planes, of_normals(state.camera_to_object));
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "render/state/math.h"
+#include "render/state/vec3_planes.h"
 
 #include <array>
 #include <span>
@@ -52,7 +53,7 @@ struct UvPoints {
 /// Points of a surface, in object space. N is along dPdu x dPdv, of any length, and never zero
 /// where the surface has a tangent plane (poles and collapsed edges included).
 struct SurfaceLattice {
-  std::vector<Vec3> P, dPdu, dPdv, N;
+  Vec3Planes P, dPdu, dPdv, N;
   void resize(size_t points) {
     P.resize(points);
     dPdu.resize(points);
@@ -60,10 +61,10 @@ struct SurfaceLattice {
     N.resize(points);
   }
   void append(const SurfaceLattice& more) {
-    P.insert(P.end(), more.P.begin(), more.P.end());
-    dPdu.insert(dPdu.end(), more.dPdu.begin(), more.dPdu.end());
-    dPdv.insert(dPdv.end(), more.dPdv.begin(), more.dPdv.end());
-    N.insert(N.end(), more.N.begin(), more.N.end());
+    P.append(more.P);
+    dPdu.append(more.dPdu);
+    dPdv.append(more.dPdv);
+    N.append(more.N);
   }
 };
 

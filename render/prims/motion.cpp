@@ -29,12 +29,15 @@ public:
     SurfaceLattice other;
     a_->evaluate(at, out);
     b_->evaluate(at, other);
-    for (size_t k = 0; k < out.P.size(); ++k) {
-      out.P[k] += (other.P[k] - out.P[k]) * weight_;
-      out.dPdu[k] += (other.dPdu[k] - out.dPdu[k]) * weight_;
-      out.dPdv[k] += (other.dPdv[k] - out.dPdv[k]) * weight_;
-      out.N[k] += (other.N[k] - out.N[k]) * weight_;
-    }
+    auto blend = [&](Vec3Planes& to, const Vec3Planes& from) {
+      for (size_t c = 0; c < 3; ++c)
+        for (size_t k = 0; k < to.size(); ++k)
+          to.plane(c)[k] += (from.plane(c)[k] - to.plane(c)[k]) * weight_;
+    };
+    blend(out.P, other.P);
+    blend(out.dPdu, other.dPdu);
+    blend(out.dPdv, other.dPdv);
+    blend(out.N, other.N);
   }
   bool ruled() const override { return a_->ruled() && b_->ruled(); }
   std::array<int, 2> coarsest() const override {

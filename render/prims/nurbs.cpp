@@ -233,9 +233,9 @@ private:
     const Vec2d* c = piece_.corners;
     Vec2d along_a = (c[1] - c[0]) * (1 - b) + (c[3] - c[2]) * b;
     Vec2d along_b = (c[2] - c[0]) * (1 - a) + (c[3] - c[1]) * a;
-    out.P[k] = Vec3(p.P);
-    out.dPdu[k] = Vec3(p.dPdu * along_a.x + p.dPdv * along_a.y);
-    out.dPdv[k] = Vec3(p.dPdu * along_b.x + p.dPdv * along_b.y);
+    out.P.set(k, Vec3(p.P));
+    out.dPdu.set(k, Vec3(p.dPdu * along_a.x + p.dPdv * along_a.y));
+    out.dPdv.set(k, Vec3(p.dPdu * along_b.x + p.dPdv * along_b.y));
     Vec3d n = glm::cross(p.dPdu, p.dPdv);
     double scale = glm::dot(p.dPdu, p.dPdu) + glm::dot(p.dPdv, p.dPdv);
     if (glm::length(n) < 1e-9 * scale) {
@@ -246,7 +246,7 @@ private:
       n = glm::cross(q.dPdu, q.dPdv);
     }
     double length = glm::length(n);
-    out.N[k] = length > 0 ? Vec3(n / length) : Vec3(0.0f);
+    out.N.set(k, length > 0 ? Vec3(n / length) : Vec3(0.0f));
   }
 
   NurbsPiece piece_;

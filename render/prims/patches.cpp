@@ -1,6 +1,7 @@
 // Bilinear and bicubic patches.
 #include "render/prims/patches.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace render {
@@ -61,19 +62,123 @@ void restrict_cubic(Vec3* p, size_t stride, float t0, float t1) {
     p[i * stride] = r[i];
 }
 
-struct Weights {
-  float u;
-  std::array<float, 4> value, slope;
-};
-/// A row of a patch is a cubic of u, and so is its change along v.
-struct Row {
-  float v;
-  Vec3 points[4], change[4];
+/// The basis functions of one axis, of as many points as are worked out together, and their slopes.
+template <size_t kOrder> struct AxisWeights {
+  static constexpr size_t kBlock = 64;
+  float value[kOrder][kBlock], slope[kOrder][kBlock];
+
+  void set(size_t k, float t) {
+    const std::array<float, kOrder> values = basis(t), slopes = basis_slope(t);
+    for (size_t i = 0; i < kOrder; ++i) {
+      value[i][k] = values[i];
+      slope[i][k] = slopes[i];
+    }
+  }
+
+private:
+  static std::array<float, kOrder> basis(float t) {
+    if constexpr (kOrder == 4)
+      return bernstein(t);
+    else
+      return {1 - t, t};
+  }
+  static std::array<float, kOrder> basis_slope(float t) {
+    if constexpr (kOrder == 4)
+      return bernstein_slope(t);
+    else
+      return {-1, 1};
+  }
 };
 
-Vec3 combine(const Vec3* p, size_t stride, const std::array<float, 4>& w) {
-  return p[0] * w[0] + p[stride] * w[1] + p[2 * stride] * w[2] + p[3 * stride] * w[3];
+/// Sums of `values`, a component of kOrder control points, by weights, for `count` points.
+template <size_t kOrder>
+void combine(const std::array<float, kOrder>& values, const float (&weights)[kOrder][64], size_t first,
+             size_t count, float* __restrict out) {
+  for (size_t n = 0; n < count; ++n) {
+    float sum = values[0] * weights[0][first + n];
+    for (size_t i = 1; i < kOrder; ++i)
+      sum += values[i] * weights[i][first + n];
+    out[n] = sum;
+  }
 }
+
+/// Control points u fastest.
+template <size_t kOrder> class TensorProduct {
+public:
+  using Points = std::array<Vec3, kOrder * kOrder>;
+
+  TensorProduct(const Points& p, SurfaceLattice& out) : p_(p), out_(out) {
+    const Vec3 one = p[kOrder * kOrder - 1] - p[0], other = p[kOrder * (kOrder - 1)] - p[kOrder - 1];
+    const float collapsed = kCollapsed * (glm::dot(one, one) + glm::dot(other, other));
+    least_ = collapsed * collapsed;
+  }
+
+  void run(const UvPoints& at) {
+    out_.resize(at.size());
+    const size_t width = at.u.size();
+    AxisWeights<kOrder> columns, rows;
+    for (size_t u = 0; u < width; u += kBlock) {
+      const size_t count = std::min(kBlock, width - u);
+      for (size_t i = 0; i < count; ++i)
+        columns.set(i, at.u[u + i]);
+      if (at.paired)
+        for (size_t i = 0; i < count; ++i)
+          add_row(columns, i, 1, &at.u[u + i], rows, at.v[u + i], u + i);
+      else
+        for (size_t j = 0; j < at.v.size(); ++j)
+          add_row(columns, 0, count, &at.u[u], rows, at.v[j], j * width + u);
+    }
+  }
+
+private:
+  static constexpr size_t kBlock = AxisWeights<kOrder>::kBlock;
+
+  /// `count` points from k on, of as many columns from `first` on. A row of a patch is a curve of u, and so
+  /// is its change along v.
+  void add_row(const AxisWeights<kOrder>& columns, size_t first, size_t count, const float* u,
+               AxisWeights<kOrder>& row, float v, size_t k) {
+    row.set(0, v);
+    for (size_t c = 0; c < 3; ++c) {
+      const auto component = static_cast<glm::length_t>(c);
+      std::array<float, kOrder> points, change;
+      for (size_t i = 0; i < kOrder; ++i) {
+        points[i] = change[i] = 0;
+        for (size_t j = 0; j < kOrder; ++j) {
+          const float value = p_[j * kOrder + i][component];
+          points[i] += value * row.value[j][0];
+          change[i] += value * row.slope[j][0];
+        }
+      }
+      combine(points, columns.value, first, count, out_.P.plane(c) + k);
+      combine(points, columns.slope, first, count, out_.dPdu.plane(c) + k);
+      combine(change, columns.value, first, count, out_.dPdv.plane(c) + k);
+    }
+    add_normals(u, v, count, k);
+  }
+
+  void add_normals(const float* u, float v, size_t count, size_t k) {
+    const Vec3Planes &a = out_.dPdu, &b = out_.dPdv;
+    float* N[3] = {out_.N.plane(0) + k, out_.N.plane(1) + k, out_.N.plane(2) + k};
+    for (size_t c = 0; c < 3; ++c) {
+      const float *ay = a.plane((c + 1) % 3) + k, *az = a.plane((c + 2) % 3) + k,
+                  *by = b.plane((c + 1) % 3) + k, *bz = b.plane((c + 2) % 3) + k;
+      float* __restrict own = N[c];
+      for (size_t n = 0; n < count; ++n)
+        own[n] = ay[n] * bz[n] - by[n] * az[n];
+    }
+    const float *x = N[0], *y = N[1], *z = N[2], least = least_;
+    int collapsed = 0;
+    for (size_t n = 0; n < count; ++n)
+      collapsed |= !(x[n] * x[n] + y[n] * y[n] + z[n] * z[n] > least);
+    for (size_t n = 0; collapsed && n < count; ++n)
+      if (!(x[n] * x[n] + y[n] * y[n] + z[n] * z[n] > least))
+        out_.N.set(k + n, limit_normal(p_, kOrder, u[n], v));
+  }
+
+  const Points& p_;
+  SurfaceLattice& out_;
+  float least_; ///< squared length of cross products that are no noise
+};
 
 } // namespace
 
@@ -86,32 +191,7 @@ Box BilinearPatch::bound(const UvRect& r) const {
 }
 
 void BilinearPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
-  struct Column {
-    float u;
-    Vec3 first, last, dv; ///< its ends on the rows v = 0 and v = 1
-  };
-  struct Row {
-    float v;
-    Vec3 du;
-  };
-  const float scale = glm::dot(p_[3] - p_[0], p_[3] - p_[0]) + glm::dot(p_[2] - p_[1], p_[2] - p_[1]),
-              collapsed = kCollapsed * scale;
-  out.resize(at.size());
-  auto column = [&](float u) {
-    return Column{u, p_[0] * (1 - u) + p_[1] * u, p_[2] * (1 - u) + p_[3] * u, dv(u)};
-  };
-  at.for_each(
-      column,
-      [&](float v) {
-        return Row{v, du(v)};
-      },
-      [&](size_t k, const Column& c, const Row& r) {
-        out.P[k] = c.first * (1 - r.v) + c.last * r.v;
-        out.dPdu[k] = r.du;
-        out.dPdv[k] = c.dv;
-        const Vec3 n = glm::cross(r.du, c.dv);
-        out.N[k] = glm::dot(n, n) > collapsed * collapsed ? n : limit_normal(p_, 2, c.u, r.v);
-      });
+  TensorProduct<2>(p_, out).run(at);
 }
 
 Box BicubicPatch::bound(const UvRect& r) const {
@@ -127,26 +207,7 @@ Box BicubicPatch::bound(const UvRect& r) const {
 }
 
 void BicubicPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
-  const float collapsed =
-      kCollapsed * (glm::dot(p_[15] - p_[0], p_[15] - p_[0]) + glm::dot(p_[12] - p_[3], p_[12] - p_[3]));
-  out.resize(at.size());
-  auto column = [](float u) { return Weights{u, bernstein(u), bernstein_slope(u)}; };
-  auto row = [&](float v) {
-    Row r{v, {}, {}};
-    const std::array<float, 4> weight = bernstein(v), slope = bernstein_slope(v);
-    for (size_t i = 0; i < 4; ++i) {
-      r.points[i] = combine(&p_[i], 4, weight);
-      r.change[i] = combine(&p_[i], 4, slope);
-    }
-    return r;
-  };
-  at.for_each(column, row, [&](size_t k, const Weights& c, const Row& r) {
-    out.P[k] = combine(r.points, 1, c.value);
-    out.dPdu[k] = combine(r.points, 1, c.slope);
-    out.dPdv[k] = combine(r.change, 1, c.value);
-    out.N[k] = glm::cross(out.dPdu[k], out.dPdv[k]);
-    if (!(glm::dot(out.N[k], out.N[k]) > collapsed * collapsed)) out.N[k] = limit_normal(p_, 4, c.u, r.v);
-  });
+  TensorProduct<4>(p_, out).run(at);
 }
 
 std::array<float, 4> bernstein(float t) {

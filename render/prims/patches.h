@@ -22,8 +22,6 @@ private:
   Vec3 point(float u, float v) const {
     return (p_[0] * (1 - u) + p_[1] * u) * (1 - v) + (p_[2] * (1 - u) + p_[3] * u) * v;
   }
-  Vec3 du(float v) const { return (p_[1] - p_[0]) * (1 - v) + (p_[3] - p_[2]) * v; }
-  Vec3 dv(float u) const { return (p_[2] - p_[0]) * (1 - u) + (p_[3] - p_[1]) * u; }
 
   std::array<Vec3, 4> p_;
 };

@@ -125,7 +125,7 @@ public:
         turn(at.u.data() + k, count, columns);
         find_profile(at.v.data() + k, count, rows);
         for (size_t i = 0; i < count; ++i)
-          set(columns, i, rows, i, k + i, out);
+          set(columns, i, 1, rows, i, k + i, out);
       }
       return;
     }
@@ -134,8 +134,7 @@ public:
       for (size_t u = 0; u < width; u += kBlock) {
         turn(at.u.data() + u, block(u, width), columns);
         for (size_t j = 0; j < block(v, height); ++j)
-          for (size_t i = 0; i < block(u, width); ++i)
-            set(columns, i, rows, j, (v + j) * width + u + i, out);
+          set(columns, 0, block(u, width), rows, j, (v + j) * width + u, out);
       }
     }
   }
@@ -186,14 +185,22 @@ private:
     }
   }
 
-  void set(const Columns& columns, size_t i, const Rows& rows, size_t j, size_t k,
+  /// `count` points from k on, of as many columns from i on in a row.
+  void set(const Columns& columns, size_t i, size_t count, const Rows& rows, size_t j, size_t k,
            SurfaceLattice& out) const {
-    const float s = columns.sine[i], c = columns.cosine[i];
-    auto turned = [&](float x, float y, float z) { return Vec3(x * c - y * s, x * s + y * c, z); };
-    out.P[k] = turned(rows.q[0][j], rows.q[1][j], rows.q[2][j]);
-    out.dPdu[k] = turned(-rows.q[1][j] * thetamax_, rows.q[0][j] * thetamax_, 0);
-    out.dPdv[k] = turned(rows.dq[0][j], rows.dq[1][j], rows.dq[2][j]);
-    out.N[k] = turned(rows.n[0][j], rows.n[1][j], rows.n[2][j]);
+    const float *sine = columns.sine + i, *cosine = columns.cosine + i;
+    auto turn_all = [&](float x, float y, float z, Vec3Planes& to) {
+      float *to_x = to.plane(0) + k, *to_y = to.plane(1) + k;
+      for (size_t n = 0; n < count; ++n)
+        to_x[n] = x * cosine[n] - y * sine[n];
+      for (size_t n = 0; n < count; ++n)
+        to_y[n] = x * sine[n] + y * cosine[n];
+      std::fill_n(to.plane(2) + k, count, z);
+    };
+    turn_all(rows.q[0][j], rows.q[1][j], rows.q[2][j], out.P);
+    turn_all(-rows.q[1][j] * thetamax_, rows.q[0][j] * thetamax_, 0, out.dPdu);
+    turn_all(rows.dq[0][j], rows.dq[1][j], rows.dq[2][j], out.dPdv);
+    turn_all(rows.n[0][j], rows.n[1][j], rows.n[2][j], out.N);
   }
 
   /// Squared distance from the axis, by the square of dPdv, at which dPdu has no direction.

@@ -190,9 +190,9 @@ public:
     at.for_each([&](size_t k, float ui, float vj) {
       Vec3d p, du, dv;
       point(ui, vj, p, du, dv);
-      out.P[k] = Vec3(p);
-      out.dPdu[k] = Vec3(du);
-      out.dPdv[k] = Vec3(dv);
+      out.P.set(k, Vec3(p));
+      out.dPdu.set(k, Vec3(du));
+      out.dPdv.set(k, Vec3(dv));
       Vec3d n = glm::cross(du, dv);
       if (glm::length(n) <= 1e-9 * (glm::dot(du, du) + glm::dot(dv, dv))) {
         // Tangents that vanish or fall together: the limit from inside.
@@ -200,7 +200,7 @@ public:
         n = glm::cross(du, dv);
       }
       double length = glm::length(n);
-      out.N[k] = length > 0 ? Vec3(n / length) : Vec3(0.0f);
+      out.N.set(k, length > 0 ? Vec3(n / length) : Vec3(0.0f));
     });
   }
 

@@ -78,10 +78,10 @@ private:
 };
 
 void copy_point(const SurfaceLattice& from, size_t i, SurfaceLattice& to, size_t k) {
-  to.P[k] = from.P[i];
-  to.dPdu[k] = from.dPdu[i];
-  to.dPdv[k] = from.dPdv[i];
-  to.N[k] = from.N[i];
+  to.P.set(k, from.P[i]);
+  to.dPdu.set(k, from.dPdu[i]);
+  to.dPdv.set(k, from.dPdv[i]);
+  to.N.set(k, from.N[i]);
 }
 
 /// A step from `at` within 0 to 1, in the direction there is more room in.
