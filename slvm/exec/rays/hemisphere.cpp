@@ -109,7 +109,7 @@ private:
   void read_tokens() {
     const PointValue samples(call_.operands[stores_ + 2].planes);
     query_.samples = static_cast<float>(sample_count(samples.at(first_point(run_))));
-    query_.min_samples = std::max(0.0f, tokens_.number("minsamples", 0));
+    query_.min_samples = tokens_.fewest_samples();
     const std::string_view distribution = tokens_.text("distribution");
     query_.cosine = distribution != "uniform";
     query_.cone_angle = per_point("coneangle", cone_angle_);

@@ -193,8 +193,7 @@ void transmission(const GridCall& call) {
   spec.origin = call.operands[1].planes;
   spec.direction = call.operands[2].planes;
   spec.differentials = true; // surfaces on the way may be textured
-  const Transmission through(call, spec, tokens.ray_options(RayKind::kTransmission),
-                             tokens.number("minsamples", 0));
+  const Transmission through(call, spec, tokens.ray_options(RayKind::kTransmission), tokens.fewest_samples());
   fill(call.run, call.operands[0], 1);
   for (size_t i = 0; i < through.size(); ++i)
     for (size_t c = 0; c < static_cast<size_t>(components(call.operands[0].type)); ++c)

@@ -111,6 +111,23 @@ TEST_F(Trace, TokensArrive) {
   EXPECT_EQ(scene_.rays.at(0).weight, (Vec{0.5, 0.25, 0}));
 }
 
+TEST_F(Trace, SeedsMakeOtherRays) {
+  auto rays = [&](const std::string& seed) {
+    scene_.forget();
+    run("result = float trace(P, vector (0, 0, 1), \"samples\", 4, \"samplecone\", 0.5" + seed + ");");
+    std::vector<Vec> out;
+    for (const AskedRay& ray : scene_.rays)
+      out.push_back(ray.direction);
+    return out;
+  };
+  const auto plain = rays("");
+  ASSERT_EQ(plain.size(), 8u);
+  EXPECT_EQ(rays(", \"seed\", 0"), plain);
+  EXPECT_NE(rays(", \"seed\", 1"), plain);
+  EXPECT_EQ(rays(", \"seed\", 1"), rays(", \"seed\", 1"));
+  EXPECT_NE(rays(", \"seed\", 1"), rays(", \"seed\", 2"));
+}
+
 TEST_F(Trace, WithoutATracer) {
   services_.traces = false;
   EXPECT_EQ(run("result = comp(trace(P, vector (0, 0, 1)), 0) + float trace(P, vector (0, 0, 1)) / 1e30;\n"
@@ -300,6 +317,22 @@ TEST_F(Trace, OcclusionPassesItsArguments) {
   EXPECT_EQ(h.call.sides, HitSides::kBack);
   EXPECT_EQ(h.weight, (Vec{0.5, 0.5, 0.25}));
   EXPECT_TRUE(h.wants_colour && h.wants_direction);
+}
+
+TEST_F(Trace, AdaptiveSamplingCanBeTurnedOff) {
+  run("result = occlusion(P, N, 16, \"minsamples\", 4, \"adaptive\", 0);");
+  EXPECT_EQ(scene_.hemispheres.at(0).min_samples, 0);
+  run("result = occlusion(P, N, 16, \"minsamples\", 4, \"adaptive\", 1);");
+  EXPECT_EQ(scene_.hemispheres.at(1).min_samples, 4);
+  auto shadow_rays = [&](const std::string& adaptive) {
+    scene_.forget();
+    run("result = float transmission(P, P + vector (0, 0, 1), \"samples\", 16, \"minsamples\", 4, "
+        "\"adaptive\", " +
+        adaptive + ");");
+    return scene_.rays.size();
+  };
+  EXPECT_EQ(shadow_rays("1"), 2u * 4);
+  EXPECT_EQ(shadow_rays("0"), 2u * 16);
 }
 
 TEST_F(Trace, IndirectDiffuse) {
