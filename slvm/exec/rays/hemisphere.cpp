@@ -3,6 +3,7 @@
 #include "slvm/exec/differences.h"
 #include "slvm/exec/rays/ray_buffer.h"
 #include "slvm/exec/rays/shooting.h"
+#include "slvm/exec/spaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,11 +133,19 @@ private:
     query_.max_error = tokens_.number("maxerror", tokens_.number("maxvariation", -1));
     query_.max_pixel_distance = tokens_.number("maxpixeldist", -1);
     query_.environment_map = tokens_.text("environmentmap");
-    query_.environment_space = tokens_.text("environmentspace");
+    read_environment_space();
     query_.cache_space = tokens_.text("coordsystem");
     if (tokens_.number("pointbased", 0) != 0)
       run_.report(call_.code, MessageSeverity::kWarning,
                   fmt::format("{}: there are no point clouds here; rays are traced", call_.info.name),
+                  mask_count(run_.mask.current(), run_.points));
+  }
+
+  void read_environment_space() {
+    const std::string_view space = tokens_.text("environmentspace");
+    if (!named_space(run_, space, false, query_.to_environment))
+      run_.report(call_.code, MessageSeverity::kWarning,
+                  fmt::format("{}: there is no coordinate system \"{}\"", call_.info.name, space),
                   mask_count(run_.mask.current(), run_.points));
   }
 

@@ -291,6 +291,10 @@ TEST_F(Trace, OcclusionAsksAboutAllPoints) {
 }
 
 TEST_F(Trace, OcclusionPassesItsArguments) {
+  Matrix4 world;
+  world(0, 0) = 2;
+  world(3, 1) = 7;
+  services_.spaces["world"] = world;
   const auto result = run(R"(color c = 0; vector d = 0;
     result = occlusion(P, N, 16, "minsamples", 4, "coneangle", PI / 4, "maxdist", 7, "bias", 0.5, "samplebase", 0.25,
       "distribution", "uniform", "maxerror", 0.125, "maxpixeldist", 9, "falloff", 2, "falloffmode", 1, "environmentmap", "sky",
@@ -310,7 +314,7 @@ TEST_F(Trace, OcclusionPassesItsArguments) {
   EXPECT_EQ(h.falloff, 2);
   EXPECT_TRUE(h.power);
   EXPECT_EQ(h.map, "sky");
-  EXPECT_EQ(h.space, "world");
+  EXPECT_EQ(h.to_map * world, Matrix4{});
   EXPECT_EQ(h.cache_space, "shader");
   EXPECT_EQ(h.call.subset, "walls");
   EXPECT_EQ(h.call.label, "dim");
@@ -355,6 +359,13 @@ TEST_F(Trace, HemisphereMessages) {
             (std::vector<std::string>{"occlusion: \"illuminationdir\" is not set",
                                       "occlusion: there are no point clouds here; rays are traced",
                                       "occlusion: there is no sky.tex"}));
+}
+
+TEST_F(Trace, MapsLieInTheSpacesThatShadersKnow) {
+  run("result = occlusion(P, N, 8, \"environmentmap\", \"sky\", \"environmentspace\", \"nowhere\");\n"
+      "result += occlusion(P, N, 8, \"environmentmap\", \"sky\", \"environmentspace\", \"object\");");
+  EXPECT_EQ(messages(), std::vector<std::string>{"occlusion: there is no coordinate system \"nowhere\""});
+  EXPECT_EQ(scene_.hemispheres.at(0).to_map, Matrix4{});
 }
 
 TEST_F(Trace, NowhereToLookWithoutNormal) {
