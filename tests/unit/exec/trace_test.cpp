@@ -258,6 +258,16 @@ TEST_F(Trace, ShadowOfRaysInALight) {
   EXPECT_FLOAT_EQ(mean[0], 111 * (1 - (0.75f + 0.5f + 0) / 3));
   EXPECT_GT(scene_.rays.at(0).max_distance, 1e5);
   EXPECT_NEAR(scene_.rays.at(0).direction[2], -1, 1e-6);
+  // What maps need many samples for needs one ray, if nothing is soft.
+  for (auto [blur, rays] : {std::pair("0", 1u), {"0.01", 16u}}) {
+    scene_.forget();
+    auto old = instantiate(machine_, std::string("light o() { illuminate (point (0.5, 0, -3)) Cl = float "
+                                                 "shadow(\"raytrace\", Ps, \"samples\", 16, \"blur\", ") +
+                                         blur + "); }");
+    services_.light_list = {old.get()};
+    run(loop);
+    EXPECT_EQ(scene_.rays.size(), 2 * rays) << blur;
+  }
 }
 
 TEST_F(Trace, ShadowOfRaysInALightLoop) {
