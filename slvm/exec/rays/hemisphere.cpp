@@ -117,8 +117,8 @@ private:
     query_.max_distance = per_point("maxdist", max_distance_);
     query_.bias = per_point("bias", bias_);
     query_.sample_base = per_point("samplebase", sample_base_);
-    if (!query_.sample_base && query_.samples > 1) {
-      sample_base_.assign(run_.points, 1.0f);
+    if (const float base = default_sample_base(run_, samples); !query_.sample_base && base > 0) {
+      sample_base_.assign(run_.points, base);
       query_.sample_base = sample_base_.data();
     }
     if (const PointValue weight = tokens_.weight(); weight.given)
