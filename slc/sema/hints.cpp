@@ -127,6 +127,7 @@ constexpr Hint kRayTokens[] = {
     {"axis", "rays go about the direction that the call says"},
     {"brightnesswarp",
      "directions as the light of a map comes are had from gather, with \"distribution\" and the map's name"},
+    {"hitmode", "what is there blocks, whatever its opacity, and no shader runs"}, // occlusion only
     {"gridcontrol", "Attribute \"irradiance\" \"maxerror\" and \"maxpixeldist\" say where rays are shot"},
 };
 constexpr std::string_view kRayTokenSets[] = {"trace",           "transmission", "occlusion",
