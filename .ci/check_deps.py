@@ -21,7 +21,7 @@ ALLOWED = {
     "slvm/wide": ["slvm/support"],
     "slvm/grid": ["slvm/format", "slvm/wide", "slvm/support", "slvm/value"],
     "slvm/textures": ["slvm/support", "slvm/value"],
-    "slvm/rays": ["slvm/format"],
+    "slvm/rays": ["slvm/format", "slvm/support"],
     "slvm/subsurface": [],
     "slvm/point_clouds": ["slvm/format"],
     "slvm/irradiance_cache": [],

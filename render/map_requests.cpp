@@ -30,6 +30,11 @@ std::string settings_of(const RequestCall& call, int swrap, int filter, MakeSett
   out.filter = call.text(filter);
   if (std::find(std::begin(kFilters), std::end(kFilters), out.filter) == std::end(kFilters))
     return fmt::format("unknown filter \"{}\"; known are {}", out.filter, fmt::join(kFilters, ", "));
+  for (auto [width, name] : {std::pair(&out.swidth, "swidth"), {&out.twidth, "twidth"}}) {
+    *width = call.number(++filter);
+    if (!(*width > 0) || *width > 1e5f)
+      return fmt::format("{} is a number of pixels above 0, found {:g}", name, *width);
+  }
   return {};
 }
 

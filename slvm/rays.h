@@ -8,6 +8,7 @@
 #pragma once
 
 #include "slvm/format/types.h"
+#include "slvm/support/matrix.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -117,9 +118,9 @@ struct HemisphereQuery {
   bool falloff_is_power = false; ///< ((maxdist - d) / maxdist)^falloff instead of exp(-falloff d)
   /// Tolerances of interpolation between points; negative: the attributes'. 0: every point by rays.
   float max_error = -1, max_pixel_distance = -1;
-  /// Looked up where rays miss, in directions of this space; "": "current", and no map.
-  std::string_view environment_map, environment_space;
-  std::string_view cache_space; ///< in which points of the cache are kept ("coordsystem")
+  std::string_view environment_map; ///< looked up where rays miss; "": none
+  Matrix4 to_environment;           ///< from "current" to the axes of that map
+  std::string_view cache_space;     ///< in which points of the cache are kept ("coordsystem")
 
   // Results, null when not wanted.
   float* occlusion = nullptr;           ///< blocked part, 0 to 1, weighted as the rays are

@@ -1,4 +1,5 @@
 // Making maps. The axes of cube faces: RISpec 3.2, appendix on environment maps, seen from the middle.
+#include "render/oiio/blur.h"
 #include "render/oiio/functions.h"
 
 #include "slvm/support/whole_file.h"
@@ -67,6 +68,10 @@ std::string make_plain(algo::MakeTextureMode mode, const std::string& name, cons
                        const MakeSettings& settings) {
   ImageBuf image;
   if (std::string why = read(name, image); !why.empty()) return why;
+  if (mode == algo::MakeTxEnvLatl)
+    blur_sphere(image, settings);
+  else
+    blur(image, settings);
   return make(mode, image, map, configuration(settings));
 }
 
@@ -152,7 +157,9 @@ std::string make_texture(const std::string& image, const std::string& texture, c
 std::string make_bump(const std::string& name, const std::string& bump, const MakeSettings& settings) {
   ImageBuf image;
   if (std::string why = read(name, image); !why.empty()) return why;
-  return make(algo::MakeTxTexture, algo::channels(image, 1, {0}), bump, configuration(settings));
+  ImageBuf heights = algo::channels(image, 1, {0});
+  blur(heights, settings);
+  return make(algo::MakeTxTexture, heights, bump, configuration(settings));
 }
 
 std::string make_latlong(const std::string& image, const std::string& texture, const MakeSettings& settings) {
@@ -186,6 +193,7 @@ std::string make_cube_environment(const std::array<std::string, 6>& names, const
       cube_pixel(cube, d, pixel);
       whole.setpixel(x, y, pixel.data());
     }
+  blur_sphere(whole, settings);
   return make(algo::MakeTxEnvLatl, whole, texture, configuration(settings));
 }
 

@@ -100,7 +100,7 @@ private:
     for (size_t i = 0; i < asked_; ++i) {
       HemispherePoint p = point_of(query_, i);
       if (interpolates && p.base > 0) take_pixel(p);
-      bool wanted = is_on(query_, i) && is_usable(p) && sampler_.may_shoot();
+      bool wanted = is_on(query_, i) && is_usable(p) && sampler_.may_shoot() && sampler_.is_heavy_enough(i);
       if (wanted) mask_[i / 64] |= uint64_t{1} << (i % 64);
       if (is_on(query_, i) && !wanted) store(query_, i, {});
       points_.push_back(p);

@@ -96,7 +96,7 @@ void HemisphereSampler::look_up_map(Rays& rays) {
     Vec3 planes[3];
     const std::vector<float>* from[3] = {rays.direction, rays.direction_du, rays.direction_dv};
     for (size_t k = 0; k < 3; ++k)
-      planes[k] = transform_vector(to_map_, Vec3(from[k][0][i], from[k][1][i], from[k][2][i]));
+      planes[k] = transform_vector(query_.to_environment, Vec3(from[k][0][i], from[k][1][i], from[k][2][i]));
     for (int c = 0; c < 3; ++c) {
       lookup.centre[c].push_back(planes[0][c]);
       lookup.along_u[c].push_back(planes[1][c]);

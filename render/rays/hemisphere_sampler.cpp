@@ -46,16 +46,16 @@ HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState
                                   b % across * pattern_.sector_block + sector));
   wants_light_ = query.radiance[0] && query.rays.shades;
   wants_map_ = !query.environment_map.empty() && (query.radiance[0] || query.environment_colour[0]);
-  if (wants_map_ && !query.environment_space.empty())
-    tracer.services_.current_to_space(state, query.environment_space, to_map_);
   const slvm::RayFacts& f = state.grid.ray;
   uint64_t h = mix(query.rays.seed, f.label);
   for (float x : {query.samples, query.min_samples, query.falloff, f.depth, f.specular_depth, f.diffuse_depth,
                   f.most_specular_depth, f.most_diffuse_depth})
     h = mix(h, x);
-  for (std::string_view text : {query.rays.label, query.rays.subset, query.environment_map,
-                                query.environment_space, std::string_view(f.type)})
+  for (std::string_view text :
+       {query.rays.label, query.rays.subset, query.environment_map, std::string_view(f.type)})
     h = mix(h, text);
+  for (float x : query.to_environment.m)
+    h = mix(h, wants_map_ ? x : 0.0f);
   for (bool flag : {query.cosine, query.falloff_is_power, query.radiance[0] != nullptr, interpolated,
                     wants_light_, query.environment_colour[0] != nullptr})
     h = mix(h, uint64_t{flag});

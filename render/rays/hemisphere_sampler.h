@@ -18,6 +18,10 @@ public:
 
   /// Whether any rays may be shot.
   bool may_shoot() const { return shooter_.may_shoot; }
+  /// Whether what this point of the query sees weighs enough.
+  bool is_heavy_enough(size_t point) const {
+    return !shooter_.too_light(shooter_.weight(query_.weight, point, point));
+  }
   void sample(std::span<const HemispherePoint> points, std::span<HemisphereSample> out);
   /// Stands for everything but the place that a sample depends on.
   uint64_t call_hash(const HemispherePoint& point) const;
@@ -53,7 +57,6 @@ private:
   RayTracer::Shooter shooter_;
   HemispherePattern pattern_;
   bool interpolated_, wants_light_, wants_map_;
-  Matrix4 to_map_;
   uint64_t call_ = 0;
   /// Whether it is enough to know if there is anything.
   bool only_blocked() const { return !interpolated_ && !wants_light_ && query_.falloff == 0; }

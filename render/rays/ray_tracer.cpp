@@ -141,16 +141,17 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   RayGeometry& g = geometry();
   const RayRule rule = g.rule(options.kind, options.subset, options.sides);
   const std::vector<Color> weight = weights(by, batch);
-  const bool light = min_weight_ > 0 && !weight.empty();
+  size_t shot = 0;
   std::vector<HitRay> hits = hits_.take_list();
   if (!outputs.empty()) hits.reserve(batch.count);
   {
     auto tracing = g.tracing();
     for (size_t i = 0; i < batch.count; ++i) {
-      if (light && by.too_light(weight[i])) {
+      if (!weight.empty() && by.too_light(weight[i])) {
         distance[i] = slvm::kNotShot;
         continue;
       }
+      ++shot;
       RaySegment ray = segment(by, options, batch, i);
       RayHit hit;
       bool found = g.world().nearest(rule, ray, cursors ? &cursors[i] : nullptr, hit);
@@ -160,7 +161,7 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
       if (!outputs.empty()) hits.push_back(hit_ray(by, batch, i, ray.time, hit));
     }
   }
-  rays_ += batch.count;
+  rays_ += shot;
   g.trim();
   uint64_t seed = hash_of(static_cast<int64_t>(by.seed), options.seed, kHits);
   seed = hash_of(static_cast<int64_t>(seed), static_cast<int64_t>(by.number(batch, 0)), kHits);

@@ -152,11 +152,18 @@ void RayTracer::transmission(const slvm::ShadingState& state, const slvm::RayOpt
   }
   RayGeometry& g = geometry();
   const RayRule rule = g.rule(shadow.kind, options.subset, options.sides);
+  const std::vector<Color> weight = weights(by, batch);
   std::vector<LightPath> paths;
+  size_t shot = 0;
   {
     auto tracing = g.tracing();
     LightPath path;
     for (size_t i = 0; i < batch.count; ++i) {
+      if (!weight.empty() && by.too_light(weight[i])) {
+        store(i, Color(1.0f));
+        continue;
+      }
+      ++shot;
       path = {};
       path.ray = i;
       path.segment = segment(by, shadow, batch, i);
@@ -166,7 +173,7 @@ void RayTracer::transmission(const slvm::ShadingState& state, const slvm::RayOpt
       if (!dark && (!path.complete || !path.layers.empty())) paths.push_back(std::move(path));
     }
   }
-  shadow_rays_ += batch.count;
+  shadow_rays_ += shot;
   for (size_t round = 0; !paths.empty() && round < kMostLayers / kShadedAtATime; ++round) {
     {
       auto tracing = g.tracing();

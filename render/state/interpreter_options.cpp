@@ -1,6 +1,7 @@
 // Requests that set options.
 #include "render/state/interpreter.h"
 #include "render/state/search_path.h"
+#include "render/texture/make_maps.h"
 
 #include <fmt/format.h>
 
@@ -287,21 +288,23 @@ void Interpreter::option(const RequestCall& call) {
 
 namespace {
 
-/// swidth and twidth, which stand before the parameters.
-std::optional<std::array<float, 2>> make_widths(const RequestCall& call) {
-  if (call.id == RequestId::kMakeShadow) return {};
+/// Whether a map's filter is given a width that has no effect. Filter, swidth and twidth stand before the
+/// parameters.
+bool width_is_lost(const RequestCall& call) {
+  if (call.id == RequestId::kMakeShadow) return false;
   bool flat = call.id == RequestId::kMakeTexture || call.id == RequestId::kMakeBump;
-  int first = flat ? 5 : call.id == RequestId::kMakeLatLongEnvironment ? 3 : 9;
-  return std::array{call.number(first), call.number(first + 1)};
+  int filter = flat ? 4 : call.id == RequestId::kMakeLatLongEnvironment ? 2 : 8;
+  return !has_width(call.text(filter)) && call.number(filter + 1) * call.number(filter + 2) != 1;
 }
 
 } // namespace
 
 void Interpreter::make_request(const RequestCall& call) {
   if (!make_map) return;
-  if (auto widths = make_widths(call); widths && (*widths)[0] * (*widths)[1] != 1)
+  if (width_is_lost(call))
     warn_once("make widths", call.where, "rib-unsupported",
-              "filters of maps have a width of their own: swidth and twidth have no effect");
+              "this filter of maps has a width of its own: swidth and twidth have no effect; they count for "
+              "box, triangle and gaussian");
   no_parameters(call);
   if (std::string why = make_map(call, options_); !why.empty()) error(call, why);
 }

@@ -20,6 +20,14 @@ std::string write_shadow(const DepthImage& depths, const std::string& shadow) {
 
 } // namespace
 
+bool has_width(std::string_view filter) {
+  return filter == "box" || filter == "triangle" || filter == "gaussian";
+}
+
+bool widens(std::string_view filter, float width) {
+  return has_width(filter) && width > (filter == "box" ? 1.0f : 2.0f);
+}
+
 std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings& settings) {
   const ImageModule& module = image_module();
   return module.problem.empty() ? module.make_texture(image, texture, settings) : module.problem;

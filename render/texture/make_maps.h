@@ -4,13 +4,21 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 namespace render {
 
 struct MakeSettings {
   std::string swrap = "black", twrap = "black"; ///< "black", "periodic", "clamp"
   std::string filter = "box";                   ///< between the levels
+  /// In pixels of the image. Wider filters than are usual (widens()) soften the map.
+  float swidth = 1, twidth = 1;
 };
+
+/// Whether the width of this filter counts at all: of "box", "triangle", "gaussian".
+bool has_width(std::string_view filter);
+/// Whether a filter of this width is wider than it usually is: a box than 1, the others than 2.
+bool widens(std::string_view filter, float width);
 
 std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings&);
 /// A texture of heights: the first channel of the image.

@@ -3,7 +3,9 @@
 
 #include "slc/embedded.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace slc {
 namespace {
@@ -119,7 +121,22 @@ std::string_view variable_hint(std::string_view name) {
   return {};
 }
 
+// What shaders of other renderers give to calls that shoot rays.
+constexpr Hint kRayTokens[] = {
+    {"adaptive", "all rays are shot"},
+    {"axis", "rays go about the direction that the call says"},
+    {"brightnesswarp",
+     "directions as the light of a map comes are had from gather, with \"distribution\" and the map's name"},
+    {"hitmode", "what is there blocks, whatever its opacity, and no shader runs"}, // occlusion only
+    {"gridcontrol", "Attribute \"irradiance\" \"maxerror\" and \"maxpixeldist\" say where rays are shot"},
+};
+constexpr std::string_view kRayTokenSets[] = {"trace",           "transmission", "occlusion",
+                                              "indirectdiffuse", "gather",       "traverse"};
+
 std::string_view token_hint(std::string_view set, std::string_view token) {
+  if (std::find(std::begin(kRayTokenSets), std::end(kRayTokenSets), set) != std::end(kRayTokenSets))
+    for (const Hint& hint : kRayTokens)
+      if (hint.name == token) return hint.advice;
   if ((set == "gather" || set == "traverse") && token.starts_with("light:"))
     return "rays hit surfaces, not lights; let the surface keep what its light loop finds in an output "
            "parameter, "

@@ -150,6 +150,8 @@ private:
         if (token == "filter") lookup_.options.filter = text_of(call_.run, value.planes);
         continue;
       }
+      // For rays, which the same call shoots when the map is named "raytrace".
+      if (token == "maxdist" || token == "samplecone") continue;
       if (!set_lookup_option(lookup_, widths_, token, values(value.planes)))
         call_.run.report(call_.code, MessageSeverity::kWarning,
                          fmt::format("{}: \"{}\" has no effect", call_.info.name, token), lookup_.points);

@@ -131,6 +131,94 @@ TEST_F(Maps, latlong_environments_point_where_the_image_says) {
   }
 }
 
+TEST_F(Maps, wide_filters_soften_textures) {
+  const std::string source = image("a.exr", 8, 8, [](float s, float t) {
+    return Color(s < 0.125f ? 8.0f : 0.0f, t < 0.125f ? 8.0f : 0.0f, 1.0f);
+  });
+  MakeSettings settings{"periodic", "clamp", "box", 4, 2};
+  ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
+  auto texel = [&](int x, int y) {
+    return look_up(&TextureMaps::texture, path("a.tex"),
+                   {(static_cast<float>(x) + 0.5f) / 8, (static_cast<float>(y) + 0.5f) / 8, 0});
+  };
+  // A box of 4 takes half of the outermost ones: of a column of 8 what falls on the columns about it, round
+  // again.
+  const float across[] = {2, 2, 1, 0, 0, 0, 1, 2}, down[] = {6, 2, 0, 0, 0, 0, 0, 0};
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_NEAR(texel(i, 4).x, across[i], 1e-4f) << i;
+    EXPECT_NEAR(texel(4, i).y, down[i], 1e-4f) << i;
+    EXPECT_NEAR(texel(i, i).z, 1, 1e-5f) << i;
+  }
+  // Beyond a black side there is nothing.
+  settings.swrap = "black";
+  ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
+  EXPECT_NEAR(texel(0, 4).x, 2, 1e-4f);
+  EXPECT_NEAR(texel(0, 4).z, 0.625f, 1e-4f);
+  EXPECT_NEAR(texel(7, 4).x, 0, 1e-4f);
+  // Usual widths change nothing.
+  for (const char* filter : {"gaussian", "triangle"}) {
+    settings = {"periodic", "clamp", filter, 2, 2};
+    ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
+    EXPECT_NEAR(texel(0, 4).x, 8, 1e-4f);
+    EXPECT_NEAR(texel(1, 4).x, 0, 1e-4f);
+  }
+  // A triangle as wide as 4: 1/4, 1/2, 1/4.
+  settings = {"periodic", "clamp", "triangle", 4, 4};
+  ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
+  EXPECT_NEAR(texel(0, 4).x, 4, 1e-4f);
+  EXPECT_NEAR(texel(1, 4).x, 2, 1e-4f);
+  EXPECT_NEAR(texel(7, 4).x, 2, 1e-4f);
+}
+
+TEST_F(Maps, wide_filters_soften_environments_by_the_same_angle_everywhere) {
+  // A sun of some degrees at the equator, at 60 degrees and at the pole: the gaussian of 32 of 256 pixels
+  // takes 45 degrees across, so that the sun becomes a spot whose middle is as bright wherever it stands.
+  float middle[3];
+  for (size_t k = 0; k < 3; ++k) {
+    const float latitude = std::array{0.0f, kPi / 3, kPi / 2 - 0.01f}[k];
+    const Vec3 sun(std::cos(latitude), 0, std::sin(latitude));
+    const std::string source = image("sky.exr", 256, 128, [&](float s, float t) {
+      float lon = s * 2 * kPi, lat = (0.5f - t) * kPi;
+      const Vec3 d(std::cos(lon) * std::cos(lat), std::sin(lon) * std::cos(lat), std::sin(lat));
+      return Color(glm::dot(d, sun) > std::cos(0.1f) ? 100.0f : 0.0f, 1.0f, 0.5f);
+    });
+    ASSERT_EQ(make_latlong(source, path("sky.env"), {"periodic", "clamp", "gaussian", 32, 32}), "");
+    Color c = look_up(&TextureMaps::environment, path("sky.env"), sun);
+    middle[k] = c.x;
+    EXPECT_NEAR(c.y, 1, 1e-3f);
+    // Across a seam or a pole the spot is as wide on both sides.
+    for (float turn : {0.15f, 0.25f}) {
+      const Vec3 up(-std::sin(latitude), 0, std::cos(latitude));
+      const float a = look_up(&TextureMaps::environment, path("sky.env"), sun + turn * up).x,
+                  b = look_up(&TextureMaps::environment, path("sky.env"), sun - turn * up).x;
+      EXPECT_NEAR(a, b, 0.1f * middle[k]) << k;
+      EXPECT_LT(a, middle[k]);
+    }
+  }
+  // The sun's part of exp(-2 (r / R)^2) to R = 22.5 degrees: as if all were flat.
+  const double whole = 1 - std::exp(-2.0),
+               expected = 100 * (1 - std::exp(-2 * std::pow(0.1 / (kPi / 8), 2))) / whole;
+  EXPECT_NEAR(middle[0], expected, 0.1 * expected);
+  EXPECT_NEAR(middle[1], middle[0], 0.1f * middle[0]);
+  EXPECT_NEAR(middle[2], middle[0], 0.2f * middle[0]);
+}
+
+TEST_F(Maps, what_a_scene_asks_of_filters_of_maps) {
+  const std::string source = image("a.exr", 8, 8, ramp);
+  auto make = [&](const std::string& filter) {
+    return run("MakeLatLongEnvironment \"" + source + "\" \"" + path("a.env") + "\" " + filter);
+  };
+  EXPECT_EQ(make("\"gaussian\" 4 4"), "");
+  EXPECT_EQ(make("\"box\" 1 1"), "");
+  EXPECT_EQ(make("\"catmull-rom\" 1 1"), "");
+  EXPECT_THAT(
+      make("\"catmull-rom\" 9 9"),
+      HasSubstr(
+          "this filter of maps has a width of its own: swidth and twidth have no effect; they count for "
+          "box, triangle and gaussian"));
+  EXPECT_THAT(make("\"box\" 1 0"), HasSubstr("twidth is a number of pixels above 0, found 0"));
+}
+
 TEST_F(Maps, six_faces_become_one_environment) {
   // Seen from the middle, with 95 degrees: forward, up, right.
   const Vec3 axes[6][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -209,8 +297,9 @@ TEST_F(Maps, requests_make_maps_and_name_mistakes) {
                      "\" MakeTexture \"a.exr\" \"" + path("a.tex") +
                      "\" \"periodic\" \"black\" \"gaussian\" 1 1"),
             "");
-  EXPECT_THAT(messages("MakeLatLongEnvironment \"" + source + "\" \"" + path("a.env") + "\" \"box\" 2 3"),
-              HasSubstr("swidth and twidth have no effect"));
+  EXPECT_THAT(
+      messages("MakeLatLongEnvironment \"" + source + "\" \"" + path("a.env") + "\" \"mitchell\" 2 3"),
+      HasSubstr("swidth and twidth have no effect"));
   EXPECT_TRUE(fs::exists(path("a.tex")));
   EXPECT_THAT(messages("MakeTexture \"" + source + "\" \"b\" \"round\" \"black\" \"box\" 1 1"),
               HasSubstr("MakeTexture: unknown wrap \"round\"; known are black, periodic, clamp"));

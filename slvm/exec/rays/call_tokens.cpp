@@ -89,6 +89,10 @@ float CallTokens::number(std::string_view name, float otherwise) const {
   return values(name, otherwise).at(first_point(call_.run));
 }
 
+float CallTokens::fewest_samples() const {
+  return number("adaptive", 1) != 0 ? std::max(number("minsamples", 0), 0.0f) : 0.0f;
+}
+
 PointValue CallTokens::weight() const {
   const GridOperand* o = find("weight");
   if (!o) o = find("importance");
@@ -118,6 +122,7 @@ RayOptions CallTokens::ray_options(RayKind kind) const {
   o.subset = text("subset");
   const float calls = number(":call", 0); // the compiler counts them
   o.seed = calls >= 0 && calls < 0x1p31f ? static_cast<uint32_t>(calls) : 0;
+  o.seed ^= std::bit_cast<uint32_t>(number("seed", 0)) * 0x9e3779b1u; // odd: no two numbers fall together
   return o;
 }
 

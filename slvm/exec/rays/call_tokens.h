@@ -39,6 +39,8 @@ public:
   PointValue values(std::string_view name, float otherwise) const;
   /// The same at all points: of a varying value that of the first active point.
   float number(std::string_view name, float otherwise) const;
+  /// "minsamples", unless "adaptive" says that all rays are shot; 0: all.
+  float fewest_samples() const;
   /// "weight", by its other name "importance".
   PointValue weight() const;
   /// What is the same for all rays. Messages tell of a name that is none of those there are.

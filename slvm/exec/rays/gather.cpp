@@ -68,6 +68,7 @@ void GatherLoop::read_spec(const GridCall& call, const CallTokens& tokens, RaySp
   spec.direction_counts = mode_ != Mode::kMapSamples;
   spec.angle = PointValue(call.operands[3].planes);
   spec.samples = PointValue(call.operands[4].planes);
+  spec.may_be_none = true;
   if (const float count = tokens.number("samplecount", 0); count > 0) spec.samples = count;
   const std::string_view distribution = tokens.text("distribution");
   spec.cosine = distribution == "cosine";

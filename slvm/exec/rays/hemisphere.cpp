@@ -3,6 +3,7 @@
 #include "slvm/exec/differences.h"
 #include "slvm/exec/rays/ray_buffer.h"
 #include "slvm/exec/rays/shooting.h"
+#include "slvm/exec/spaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,15 +110,15 @@ private:
   void read_tokens() {
     const PointValue samples(call_.operands[stores_ + 2].planes);
     query_.samples = static_cast<float>(sample_count(samples.at(first_point(run_))));
-    query_.min_samples = std::max(0.0f, tokens_.number("minsamples", 0));
+    query_.min_samples = tokens_.fewest_samples();
     const std::string_view distribution = tokens_.text("distribution");
     query_.cosine = distribution != "uniform";
     query_.cone_angle = per_point("coneangle", cone_angle_);
     query_.max_distance = per_point("maxdist", max_distance_);
     query_.bias = per_point("bias", bias_);
     query_.sample_base = per_point("samplebase", sample_base_);
-    if (!query_.sample_base && query_.samples > 1) {
-      sample_base_.assign(run_.points, 1.0f);
+    if (const float base = default_sample_base(run_, samples); !query_.sample_base && base > 0) {
+      sample_base_.assign(run_.points, base);
       query_.sample_base = sample_base_.data();
     }
     if (const PointValue weight = tokens_.weight(); weight.given)
@@ -132,11 +133,19 @@ private:
     query_.max_error = tokens_.number("maxerror", tokens_.number("maxvariation", -1));
     query_.max_pixel_distance = tokens_.number("maxpixeldist", -1);
     query_.environment_map = tokens_.text("environmentmap");
-    query_.environment_space = tokens_.text("environmentspace");
+    read_environment_space();
     query_.cache_space = tokens_.text("coordsystem");
     if (tokens_.number("pointbased", 0) != 0)
       run_.report(call_.code, MessageSeverity::kWarning,
                   fmt::format("{}: there are no point clouds here; rays are traced", call_.info.name),
+                  mask_count(run_.mask.current(), run_.points));
+  }
+
+  void read_environment_space() {
+    const std::string_view space = tokens_.text("environmentspace");
+    if (!named_space(run_, space, false, query_.to_environment))
+      run_.report(call_.code, MessageSeverity::kWarning,
+                  fmt::format("{}: there is no coordinate system \"{}\"", call_.info.name, space),
                   mask_count(run_.mask.current(), run_.points));
   }
 

@@ -61,7 +61,8 @@ void RaySource::read_points(const ShaderRun& run, const RaySpec& spec, uint32_t 
   most_samples_ = 0;
   for (size_t i = 0; i < count; ++i) {
     const size_t from = point[i];
-    samples[i] = sample_count(spec.samples.at(from));
+    const float asked = spec.samples.at(from);
+    samples[i] = spec.may_be_none && asked < 0.5f ? 0 : sample_count(asked);
     most_samples_ = std::max(most_samples_, samples[i]);
     const uint32_t seed = point_seed(run.state.grid->id, call_seed, point[i]);
     for (SampleUse use : {SampleUse::kTurn, SampleUse::kRadius})
@@ -116,7 +117,7 @@ void RaySource::read_cones(const RaySpec& spec) {
     // Solid angle of the cone, or what it is worth by cosine, in as many parts as there are samples.
     const float size_of_cone =
         cosine ? std::numbers::pi_v<float> * s * s : 2 * std::numbers::pi_v<float> * (1 - cosine_of_angle[i]);
-    spread[i] = std::sqrt(std::max(size_of_cone, 0.0f) / static_cast<float>(samples[i]));
+    spread[i] = std::sqrt(std::max(size_of_cone, 0.0f) / static_cast<float>(std::max(samples[i], 1u)));
     float z[3] = {axis[0][i], axis[1][i], axis[2][i]}, x[3], y[3];
     directions_across(z, x, y);
     for (size_t c = 0; c < 3; ++c) {
@@ -196,7 +197,7 @@ void RaySource::read_widths() {
     const PointTriples& moves = k == 0 ? origin_u : origin_v;
     PointTriples& ray_moves = k == 0 ? ray_origin_u : ray_origin_v;
     for (size_t i = 0; i < size(); ++i) {
-      const float share = 1 / std::sqrt(static_cast<float>(samples[i]));
+      const float share = 1 / std::sqrt(static_cast<float>(std::max(samples[i], 1u)));
       const float part = base.empty() ? 1.0f : 1 - base[i] * (1 - share);
       const float side = spread.empty() ? 0.0f : spread[i];
       float squared = 0;

@@ -18,6 +18,7 @@ struct RaySpec {
   bool to_target = false;       ///< `direction` is a point instead: rays are no longer than to there
   PointValue angle = 0;         ///< half angle of the cone; 0: the axis itself
   PointValue samples = 1;
+  bool may_be_none = false; ///< points whose samples are 0 shoot nothing; else one at least
   PointValue bias = -1;
   PointValue max_distance = std::numeric_limits<float>::infinity();
   PointValue sample_base = 0; ///< part of the element that origins are spread over

@@ -42,6 +42,8 @@ RayKind kind_for_cone(const ShaderRun& run, const PointValue& angle) {
 }
 
 float default_sample_base(const ShaderRun& run, const PointValue& samples) {
+  // What a diffuse ray covers is wider than surfaces are flat: rays would begin beside them, behind walls.
+  if (run.state.grid->ray.type == "diffuse") return 0;
   return greatest(run, samples) >= 1.5f ? 1.0f : 0.0f;
 }
 

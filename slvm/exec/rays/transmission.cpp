@@ -160,6 +160,7 @@ void trace_shadow(const GridCall& call) {
   std::vector<float> from(3 * pitch), to(3 * pitch), angle(pitch);
   RaySpec spec = spec_of(call, tokens, 0, 1);
   const PointValue blur = tokens.values("blur", 0), cone = spec.angle;
+  bool cones = false;
   mask_for_each(run.mask.current(), run.points, [&](size_t i) {
     for (size_t c = 0; c < 3; ++c) {
       float& middle = from[c * pitch + i];
@@ -170,8 +171,10 @@ void trace_shadow(const GridCall& call) {
       to[c * pitch + i] = light.component(i, c, middle);
     }
     angle[i] = cone.at(i) + std::numbers::pi_v<float> * blur.at(i);
+    cones = cones || angle[i] > 0;
   });
-  spec.sample_base = 0; // positions of masked points are not there to be differentiated
+  spec.sample_base = 0;         // positions of masked points are not there to be differentiated
+  if (!cones) spec.samples = 1; // of a map one samples an area; these rays would all be the same
   spec.origin = {from.data(), pitch, 1, 1};
   spec.direction = {to.data(), pitch, 1, 1};
   spec.angle = PointValue(Operand{angle.data(), pitch, 1, 1});
@@ -193,8 +196,7 @@ void transmission(const GridCall& call) {
   spec.origin = call.operands[1].planes;
   spec.direction = call.operands[2].planes;
   spec.differentials = true; // surfaces on the way may be textured
-  const Transmission through(call, spec, tokens.ray_options(RayKind::kTransmission),
-                             tokens.number("minsamples", 0));
+  const Transmission through(call, spec, tokens.ray_options(RayKind::kTransmission), tokens.fewest_samples());
   fill(call.run, call.operands[0], 1);
   for (size_t i = 0; i < through.size(); ++i)
     for (size_t c = 0; c < static_cast<size_t>(components(call.operands[0].type)); ++c)

@@ -208,6 +208,20 @@ TEST(Hemisphere, light_in_a_white_furnace) {
   EXPECT_EQ(ask.occlusion[0], 1);
 }
 
+TEST(Hemisphere, occlusion_runs_no_shaders_and_light_does) {
+  RayScene s(world("Surface \"says\" Translate 0 0 5 Sphere 3 -3 3 360"),
+             {{"says", "surface says() { printf(\".\"); Ci = 1; Oi = 1; }"}});
+  for (float max_error : {0.0f, 0.5f}) {
+    Ask ask(s);
+    ask.query.max_error = max_error;
+    EXPECT_EQ(ask.at({0, 0.5f, 5}, {0, 1, 0}), 1);
+    EXPECT_EQ(s.printed(), "");
+    ask.light();
+    EXPECT_EQ(ask.radiance_at({0, 0.5f, 5}, {0, 1, 0}).x, 1);
+    EXPECT_NE(s.printed(), "");
+  }
+}
+
 TEST(Hemisphere, colour_bleeding_by_form_factors) {
   // A square of side 2 facing the point at distance 1, above its middle: by the formula of a parallel
   // rectangle seen from below a corner, four times: F = 4 / (2 PI) (2 a / sqrt(1 + a^2) atan(a / sqrt(1 +

@@ -24,7 +24,7 @@ RayScene::RayScene(const std::string& rib, std::map<std::string, std::string> sh
   textures_ = std::make_unique<TextureMaps>(settings);
   bound_ = std::make_unique<BoundShaders>(scene_, machine_, cache_, diagnostics);
   services_ = std::make_unique<SceneServices>(scene_, *bound_, *textures_, lookups_, points_,
-                                              [](std::string_view) {});
+                                              [this](std::string_view text) { printed_ += text; });
   tracer_ = std::make_unique<RayTracer>(scene_, machine_, *bound_, *services_);
   services_->set_rays(tracer_.get());
   messages_ = format_diagnostics(diagnostics, sources);

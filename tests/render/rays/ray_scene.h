@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace render::testing {
@@ -53,6 +54,8 @@ public:
   RayTracer& tracer() { return *tracer_; }
   const Scene& scene() const { return scene_; }
   const std::string& messages() const { return messages_; }
+  /// What shaders have printed since this was asked last.
+  std::string printed() { return std::exchange(printed_, {}); }
   slvm::Machine& machine() { return machine_; }
   SceneServices& services() { return *services_; }
   /// The shaders of a primitive.
@@ -67,7 +70,7 @@ private:
 
   std::map<std::string, std::string> shaders_;
   Scene scene_;
-  std::string messages_;
+  std::string messages_, printed_;
   slvm::Machine machine_;
   ShaderCache cache_;
   std::unique_ptr<TextureMaps> textures_;

@@ -136,6 +136,23 @@ TEST(Trace, hits_run_displacement_surface_and_atmosphere) {
   EXPECT_THAT(s.value(ray, "primitive:s", Type::kFloat, unshaded), ElementsAre(FloatNear(0.25f, 1e-5f)));
 }
 
+TEST(Trace, shaders_run_only_where_something_of_theirs_is_asked_for) {
+  RayScene s(world("Surface \"says\" Translate 0 0 4 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"),
+             {{"says", "surface says() { printf(\"ran\\n\"); Ci = 1; }"}});
+  const TestRay ray{{0.1f, 0.2f, 0}};
+  EXPECT_EQ(s.distance(ray), 4);
+  EXPECT_THAT(s.value(ray, "primitive:N", Type::kNormal), ::testing::SizeIs(3));
+  slvm::RayOptions unshaded, plain;
+  unshaded.shades = false;
+  EXPECT_THAT(s.value(ray, "surface:N", Type::kNormal, unshaded), IsEmpty());
+  plain.mode = slvm::HitMode::kPrimitive;
+  EXPECT_THAT(s.value(ray, "surface:Ci", Type::kColor, plain), ElementsAre(1, 1, 1));
+  EXPECT_EQ(s.transmission({}, {0, 0, 9}), Color(0.0f));
+  EXPECT_EQ(s.printed(), "");
+  EXPECT_THAT(s.value(ray, "surface:N", Type::kNormal), ::testing::SizeIs(3));
+  EXPECT_EQ(s.printed(), "ran\n");
+}
+
 TEST(Trace, messages_come_from_shaders_of_the_same_object) {
   // Hits that follow each other in one context: what the first object's shaders left must not be found by the
   // second one, which has none of these.

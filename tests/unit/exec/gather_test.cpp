@@ -169,6 +169,23 @@ TEST_F(Gather, SamplesMayDifferFromPointToPoint) {
   EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0, 9, \"samplecount\", 2) result += 1;"), all(2));
 }
 
+TEST_F(Gather, WithoutSamplesTheLoopIsOver) {
+  // As shaders have it that look at what kind of ray hit them: samples = type == "diffuse" ? 0 : 16.
+  scene_.surfaces = {plane_at(5)};
+  for (const char* angle : {"0", "PI / 2"}) {
+    scene_.forget();
+    EXPECT_EQ(
+        run(fmt::format(
+                "color c = 0; gather(\"\", P, vector (0, 0, 1), {}, 3 * u, \"surface:Ci\", c) result += "
+                "1; else result += 10;",
+                angle),
+            4, 1)[0],
+        0);
+    EXPECT_EQ(scene_.rays.size(), 6u) << angle;
+  }
+  EXPECT_EQ(run("gather(\"\", P, vector (0, 0, 1), 0, 0) result += 1; else result += 10;"), all(0));
+}
+
 TEST_F(Gather, BreaksAndContinuesOfTwoLevels) {
   scene_.surfaces = {plane_at(5)};
   EXPECT_EQ(run(R"(float i;

@@ -188,7 +188,7 @@ std::string RayScene::hemisphere(const ShadingState&, const HemisphereQuery& q) 
   h.position = triple(q.position, 0), h.normal = triple(q.normal, 0);
   h.along_u = triple(q.along_u, 0), h.along_v = triple(q.along_v, 0);
   if (q.weight[0]) h.weight = triple(q.weight, 0);
-  h.map = q.environment_map, h.space = q.environment_space, h.cache_space = q.cache_space;
+  h.map = q.environment_map, h.to_map = q.to_environment, h.cache_space = q.cache_space;
   h.wants_radiance = q.radiance[0], h.wants_occlusion = q.occlusion;
   h.wants_colour = q.environment_colour[0], h.wants_direction = q.environment_direction[0];
   for (size_t i = 0; i < q.points; ++i) {

@@ -52,7 +52,8 @@ struct AskedHemisphere {
        wants_direction = false;
   double cone_angle = 0, max_distance = 0, bias = 0, sample_base = 0; ///< -7: null
   Vec position{}, normal{}, along_u{}, along_v{}, weight{1, 1, 1};
-  std::string map, space, cache_space;
+  std::string map, cache_space;
+  Matrix4 to_map;
   std::vector<uint8_t> active;
 };
 

@@ -14,12 +14,14 @@ namespace {
 using namespace test;
 
 /// The rays that a surface's statements shoot from a square of nu x nv points.
-std::vector<AskedRay> rays_of(const std::string& statements, int nu, int nv, uint64_t id = 11) {
+std::vector<AskedRay> rays_of(const std::string& statements, int nu, int nv, uint64_t id = 11,
+                              std::string_view type = "camera") {
   const Machine machine;
   RayServicesScene services;
   auto surface = instantiate(machine, "surface s() { " + statements + " }");
   Grid grid = square(nu, nv);
   grid.id = id;
+  grid.ray.type = type;
   ShadingContext context(machine, services);
   context.shade({.surface = surface.get()}, grid);
   return services.scene.rays;
@@ -182,6 +184,19 @@ TEST(Sampling, OriginsAreSpreadOverTheElement) {
   EXPECT_NEAR(spread(64, ", \"samplebase\", 0.5"), 0.0625, 0.0025);
   EXPECT_EQ(spread(64, ", \"samplebase\", 0"), 0);
   EXPECT_GT(spread(1, ", \"samplebase\", 1"), 0.1);
+}
+
+TEST(Sampling, OriginsStayOnWhatDiffuseRaysHit) {
+  const std::string call = "gather(\"\", P, vector (0, 0, 1), 0, 16{}) Ci += 1; else Ci += 1;";
+  auto spread = [&](std::string_view tokens, std::string_view type) {
+    double most = 0;
+    for (const AskedRay& ray : rays_of(fmt::format(fmt::runtime(call), tokens), 5, 5, 11, type))
+      most = std::max(most, std::fabs(ray.origin[0] - ray.point % 5 * 0.25));
+    return most;
+  };
+  EXPECT_EQ(spread("", "diffuse"), 0);
+  EXPECT_GT(spread("", "specular"), 0.1);
+  EXPECT_GT(spread(", \"samplebase\", 1", "diffuse"), 0.1);
 }
 
 TEST(Sampling, MeansFallFasterThanChance) {

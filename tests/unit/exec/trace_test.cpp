@@ -111,6 +111,23 @@ TEST_F(Trace, TokensArrive) {
   EXPECT_EQ(scene_.rays.at(0).weight, (Vec{0.5, 0.25, 0}));
 }
 
+TEST_F(Trace, SeedsMakeOtherRays) {
+  auto rays = [&](const std::string& seed) {
+    scene_.forget();
+    run("result = float trace(P, vector (0, 0, 1), \"samples\", 4, \"samplecone\", 0.5" + seed + ");");
+    std::vector<Vec> out;
+    for (const AskedRay& ray : scene_.rays)
+      out.push_back(ray.direction);
+    return out;
+  };
+  const auto plain = rays("");
+  ASSERT_EQ(plain.size(), 8u);
+  EXPECT_EQ(rays(", \"seed\", 0"), plain);
+  EXPECT_NE(rays(", \"seed\", 1"), plain);
+  EXPECT_EQ(rays(", \"seed\", 1"), rays(", \"seed\", 1"));
+  EXPECT_NE(rays(", \"seed\", 1"), rays(", \"seed\", 2"));
+}
+
 TEST_F(Trace, WithoutATracer) {
   services_.traces = false;
   EXPECT_EQ(run("result = comp(trace(P, vector (0, 0, 1)), 0) + float trace(P, vector (0, 0, 1)) / 1e30;\n"
@@ -241,6 +258,16 @@ TEST_F(Trace, ShadowOfRaysInALight) {
   EXPECT_FLOAT_EQ(mean[0], 111 * (1 - (0.75f + 0.5f + 0) / 3));
   EXPECT_GT(scene_.rays.at(0).max_distance, 1e5);
   EXPECT_NEAR(scene_.rays.at(0).direction[2], -1, 1e-6);
+  // What maps need many samples for needs one ray, if nothing is soft.
+  for (auto [blur, rays] : {std::pair("0", 1u), {"0.01", 16u}}) {
+    scene_.forget();
+    auto old = instantiate(machine_, std::string("light o() { illuminate (point (0.5, 0, -3)) Cl = float "
+                                                 "shadow(\"raytrace\", Ps, \"samples\", 16, \"blur\", ") +
+                                         blur + "); }");
+    services_.light_list = {old.get()};
+    run(loop);
+    EXPECT_EQ(scene_.rays.size(), 2 * rays) << blur;
+  }
 }
 
 TEST_F(Trace, ShadowOfRaysInALightLoop) {
@@ -274,6 +301,10 @@ TEST_F(Trace, OcclusionAsksAboutAllPoints) {
 }
 
 TEST_F(Trace, OcclusionPassesItsArguments) {
+  Matrix4 world;
+  world(0, 0) = 2;
+  world(3, 1) = 7;
+  services_.spaces["world"] = world;
   const auto result = run(R"(color c = 0; vector d = 0;
     result = occlusion(P, N, 16, "minsamples", 4, "coneangle", PI / 4, "maxdist", 7, "bias", 0.5, "samplebase", 0.25,
       "distribution", "uniform", "maxerror", 0.125, "maxpixeldist", 9, "falloff", 2, "falloffmode", 1, "environmentmap", "sky",
@@ -293,13 +324,29 @@ TEST_F(Trace, OcclusionPassesItsArguments) {
   EXPECT_EQ(h.falloff, 2);
   EXPECT_TRUE(h.power);
   EXPECT_EQ(h.map, "sky");
-  EXPECT_EQ(h.space, "world");
+  EXPECT_EQ(h.to_map * world, Matrix4{});
   EXPECT_EQ(h.cache_space, "shader");
   EXPECT_EQ(h.call.subset, "walls");
   EXPECT_EQ(h.call.label, "dim");
   EXPECT_EQ(h.call.sides, HitSides::kBack);
   EXPECT_EQ(h.weight, (Vec{0.5, 0.5, 0.25}));
   EXPECT_TRUE(h.wants_colour && h.wants_direction);
+}
+
+TEST_F(Trace, AdaptiveSamplingCanBeTurnedOff) {
+  run("result = occlusion(P, N, 16, \"minsamples\", 4, \"adaptive\", 0);");
+  EXPECT_EQ(scene_.hemispheres.at(0).min_samples, 0);
+  run("result = occlusion(P, N, 16, \"minsamples\", 4, \"adaptive\", 1);");
+  EXPECT_EQ(scene_.hemispheres.at(1).min_samples, 4);
+  auto shadow_rays = [&](const std::string& adaptive) {
+    scene_.forget();
+    run("result = float transmission(P, P + vector (0, 0, 1), \"samples\", 16, \"minsamples\", 4, "
+        "\"adaptive\", " +
+        adaptive + ");");
+    return scene_.rays.size();
+  };
+  EXPECT_EQ(shadow_rays("1"), 2u * 4);
+  EXPECT_EQ(shadow_rays("0"), 2u * 16);
 }
 
 TEST_F(Trace, IndirectDiffuse) {
@@ -322,6 +369,13 @@ TEST_F(Trace, HemisphereMessages) {
             (std::vector<std::string>{"occlusion: \"illuminationdir\" is not set",
                                       "occlusion: there are no point clouds here; rays are traced",
                                       "occlusion: there is no sky.tex"}));
+}
+
+TEST_F(Trace, MapsLieInTheSpacesThatShadersKnow) {
+  run("result = occlusion(P, N, 8, \"environmentmap\", \"sky\", \"environmentspace\", \"nowhere\");\n"
+      "result += occlusion(P, N, 8, \"environmentmap\", \"sky\", \"environmentspace\", \"object\");");
+  EXPECT_EQ(messages(), std::vector<std::string>{"occlusion: there is no coordinate system \"nowhere\""});
+  EXPECT_EQ(scene_.hemispheres.at(0).to_map, Matrix4{});
 }
 
 TEST_F(Trace, NowhereToLookWithoutNormal) {
