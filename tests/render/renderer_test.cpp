@@ -286,7 +286,7 @@ TEST_F(RendererTest, colours_that_are_not_numbers_are_reported_and_drawn_black) 
 }
 
 TEST_F(RendererTest, a_surface_that_only_sets_oi_to_zero_makes_a_hole) {
-  shaders_["ring"] = "surface ring() { if (u < .5) Oi = 0; }";
+  shaders_["ring"] = "surface ring() { if (u < .5) Oi = 0; else Ci = Cs; }";
   shaders_["glow"] = "surface glow() { Ci = .25; Oi = 0; }";
   shaders_["show"] = kShow;
   const std::string sheet = "Patch \"bilinear\" \"P\" [-1 1 5 1 1 5 -1 -1 5 1 -1 5] ";

@@ -77,7 +77,7 @@ TEST_F(MachineTest, NarrowedSurfacesComputeWhatIsWanted) {
   ShadingContext context(machine, services);
   context.shade({.surface = narrow.get()}, grid);
   EXPECT_EQ(grid.variable(Global::kOi).get(1, 3), 0.25f); // of the value the parameter was given
-  EXPECT_EQ(grid.variable(Global::kCi).get(1, 3), 1.0f);  // as it started
+  EXPECT_EQ(grid.variable(Global::kCi).get(1, 3), 0.0f);  // as it started
   EXPECT_THAT(services.printed, HasSubstr("x"));
   const Planes* seen = context.output(*narrow, "seen");
   ASSERT_TRUE(seen);
@@ -140,14 +140,16 @@ TEST_F(MachineTest, OutputParametersCanBeRead) {
   EXPECT_EQ(context.output(*surface, "thrice"), nullptr);
 }
 
-TEST_F(MachineTest, CiAndOiBeginAsSurfaceColour) {
+TEST_F(MachineTest, CiBeginsBlackAndOiAsSurfaceOpacity) {
   Grid grid = square(2, 2);
-  grid.set_uniform(Global::kCs, std::vector<float>{0.25f, 0.5f, 1});
-  auto surface = instantiate(machine, "surface null() {}");
+  grid.set_uniform(Global::kOs, std::vector<float>{0.25f, 0.5f, 1});
+  auto surface = instantiate(machine, "surface s() { Ci += color(0, 0, .125); }");
   ShadingContext context(machine, services);
   context.shade({.surface = surface.get()}, grid);
-  EXPECT_THAT(red(grid), Each(0.25f));
-  EXPECT_THAT(red(grid, 2), Each(1.0f));
+  EXPECT_THAT(red(grid), Each(0.0f));
+  EXPECT_THAT(red(grid, 2), Each(0.125f));
+  EXPECT_EQ(grid.variable(Global::kOi).get(0, 3), 0.25f);
+  EXPECT_EQ(grid.variable(Global::kOi).get(1, 3), 0.5f);
 }
 
 TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
