@@ -216,6 +216,17 @@ TEST_F(SlrenderTest, old_scenes_render_with_warnings) {
   EXPECT_TRUE(exists("a.png"));
 }
 
+TEST_F(SlrenderTest, a_picture_larger_than_memory_is_not_begun) {
+  file("vast.rib", "Display \"vast.tif\" \"tiff\" \"rgb\" Format 65536 65536 1 WorldBegin WorldEnd");
+  Outcome o = run("vast.rib");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.text,
+              HasSubstr("error: a picture of 65536 x 65536 pixels takes 137 GB, and this machine has "));
+  EXPECT_THAT(o.text, HasSubstr("rendered with CropWindow or --crop"));
+  EXPECT_EQ(run("--crop 0 0.0001 0 0.0001 vast.rib").text, "");
+  EXPECT_TRUE(exists("vast.tif"));
+}
+
 TEST_F(SlrenderTest, exit_codes) {
   file("bad.rib", "Sphere\nWorldBegin WorldEnd\n");
   Outcome bad = run("-d null bad.rib");
