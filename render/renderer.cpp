@@ -33,7 +33,8 @@ namespace render {
 
 struct Renderer::Impl {
   Impl(slvm::SourceManager& sources, slvm::Diagnostics& d, RendererSettings s)
-      : diagnostics(d), settings(std::move(s)), machine({.plugin_folders = settings.plugin_folders}),
+      : diagnostics(d), settings(std::move(s)),
+        machine({.zero_for_unserved = true, .plugin_folders = settings.plugin_folders}),
         cache(machine, settings.shader_loader), interpreter(sources, d, [this](Scene& scene) {
           render(scene);
           end_plugins();
