@@ -27,12 +27,14 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <unistd.h>
 
 namespace render {
 
 struct Renderer::Impl {
   Impl(slvm::SourceManager& sources, slvm::Diagnostics& d, RendererSettings s)
-      : diagnostics(d), settings(std::move(s)), machine({.plugin_folders = settings.plugin_folders}),
+      : diagnostics(d), settings(std::move(s)),
+        machine({.zero_for_unserved = true, .plugin_folders = settings.plugin_folders}),
         cache(machine, settings.shader_loader), interpreter(sources, d, [this](Scene& scene) {
           render(scene);
           end_plugins();
@@ -163,6 +165,26 @@ void Renderer::Impl::emit_photons(Scene& frame) {
   flush();
 }
 
+namespace {
+
+/// Why the picture cannot be held, or nothing: rather now than after hours, or with the machine brought to a
+/// halt.
+std::string too_large(const Options& options, const std::vector<AovChannel>& aovs) {
+  const PixelRect crop = Camera(options).crop();
+  const double samples = options.subpixel ? options.xsamples * options.ysamples : 1;
+  const int floats = aovs.empty() ? Image::kAov : Image::kAov + aovs.back().first + aovs.back().components;
+  const double bytes = samples * crop.width() * crop.height() * floats * sizeof(float);
+  const double memory =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (bytes < memory) return {};
+  return fmt::format(
+      "a picture of {} x {} pixels takes {:.0f} GB, and this machine has {:.0f}; parts of it can be "
+      "rendered with CropWindow or --crop",
+      crop.width(), crop.height(), bytes * 1e-9, memory * 1e-9);
+}
+
+} // namespace
+
 void Renderer::Impl::render(Scene& frame) {
   if (frame.options.no_image) return;
   if (frame.options.photons > 0) return emit_photons(frame);
@@ -198,6 +220,10 @@ void Renderer::Impl::render(Scene& frame) {
   if (!settings.preview.empty()) {
     preview.emplace(frame.options, s.aovs, settings.preview);
     s.finished = [&](const Image& pixels, const PixelRect& rect) { preview->add(pixels, rect); };
+  }
+  if (std::string why = too_large(frame.options, s.aovs); !why.empty()) {
+    diagnostics.error({}, why);
+    return;
   }
   Image image = render_frame(frame, shading, s, report);
   statistics.render_seconds = seconds_since(started);

@@ -4,6 +4,7 @@
 #include "slvm/evaluator.h"
 #include "slvm/exec/bind.h"
 #include "slvm/exec/bound.h"
+#include "slvm/exec/grid_ops.h"
 #include "slvm/exec/plugin_host.h"
 #include "slvm/format/decode.h"
 #include "slvm/format/slo.h"
@@ -151,7 +152,7 @@ uint32_t find_last_derivative(const Program& program) {
 // Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot
 // serve.
 std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels,
-                      PluginHost& plugins) {
+                      PluginHost& plugins, bool zero_for_unserved) {
   std::vector<bool> called(program.imports.size());
   size_t emitters = 0;
   bool loops = false;
@@ -183,7 +184,9 @@ std::string bind_code(Instance::Bound& bound, const Program& program, const Kern
     bound.imports.push_back({kernels[id], grid_op(id), nullptr});
     bound.reads_messages |= info.name == "surface" || info.name == "displacement" ||
                             info.name == "atmosphere" || info.name == "incident" || info.name == "opposite";
-    if (called[i] && info.kind == ShadeopKind::kPending)
+    if (called[i] && info.kind == ShadeopKind::kPending && zero_for_unserved)
+      bound.imports.back().grid_op = grid_ops::unserved;
+    else if (called[i] && info.kind == ShadeopKind::kPending)
       return fmt::format("{} \"{}\" calls '{}', which this build cannot serve",
                          shader_kind_name(program.kind), program.name, info.name);
   }
@@ -256,7 +259,8 @@ Result<std::unique_ptr<Instance>> Machine::make(const Making& making) const {
     bound.given.assign(making.given.begin(), making.given.end());
     bound.may_vary.assign(making.may_vary.begin(), making.may_vary.end());
   }
-  if (std::string error = bind_code(bound, program, *kernels_, *plugins_); !error.empty())
+  if (std::string error = bind_code(bound, program, *kernels_, *plugins_, options_.zero_for_unserved);
+      !error.empty())
     return Error{error};
   bind_constants(bound, program, strings_);
   bind_params(bound, program, *values, strings_);

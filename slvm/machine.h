@@ -44,6 +44,9 @@ struct MachineOptions {
   uint64_t most_rounds = 30'000'000;
   /// Fill registers with signalling NaN before each run, so that a read of an unset value shows.
   bool poison_registers = false;
+  /// Whether a shader that calls what this build cannot serve (the PENDING rows of shadeops.def) runs all the
+  /// same: the call then gives 0, with a run-time message. Without it such a shader cannot be instantiated.
+  bool zero_for_unserved = false;
   /// For an application's log: called with each run-time message when it first occurs, by the thread whose
   /// shader it is of, one call at a time. Repetitions, the same text from the same line of the same shader,
   /// are folded: Machine::messages() has their counts. It must not call the machine.

@@ -4,8 +4,6 @@
 #include "render/rib/parameters.h"
 #include "render/texture/image_module.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -15,30 +13,35 @@ namespace render {
 
 namespace fs = std::filesystem;
 
-slvm::Result<FileFormat> choose_format(const DisplayRequest& d) {
-  std::string extension = fs::path(d.name).extension().string();
+namespace {
+
+bool is_format(const std::string& name) {
+  if (name == "tif" || name == "tiff" || name == "png") return true;
+  const ImageModule& module = image_module();
+  return module.problem.empty() && module.knows_format(name);
+}
+
+/// What the extension of the file's name says; TIFF without one that is known.
+FileFormat format_of_name(const std::string& name) {
+  std::string extension = fs::path(name).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
-  auto known = [](const std::string& name) {
-    if (name == "tif" || name == "tiff" || name == "png") return true;
-    const ImageModule& module = image_module();
-    return module.problem.empty() && module.knows_format(name);
-  };
+  if (extension.empty() || !is_format(extension)) return {"tiff", "tif"};
+  return {extension == "tif" ? "tiff" : extension == "jpg" ? "jpeg" : extension, extension};
+}
+
+} // namespace
+
+FileFormat choose_format(const DisplayRequest& d) {
   const std::string& t = d.type;
-  if (t == "tiff" || t == "tif") return FileFormat{"tiff", "tif"};
-  if (t == "png") return FileFormat{"png", "png"};
-  if (t == "openexr" || t == "exr") return FileFormat{"openexr", "exr"};
-  if (t == "zfile" || t == "shadow") return FileFormat{"tiff", "z"};
-  if (t == "file" || t == "framebuffer" || t == "it") {
-    if (!extension.empty() && known(extension))
-      return FileFormat{extension == "tif" ? "tiff" : extension == "jpg" ? "jpeg" : extension, extension};
-    return FileFormat{"tiff", "tif"};
-  }
-  if (t == "jpg" && known(t)) return FileFormat{"jpeg", t};
-  if (known(t)) return FileFormat{t, t};
-  return slvm::Error{
-      fmt::format("unknown type \"{}\"; expected \"tiff\", \"png\", \"openexr\", \"file\", \"null\" or "
-                  "another format of OpenImageIO",
-                  t)};
+  if (t == "tiff" || t == "tif") return {"tiff", "tif"};
+  if (t == "png") return {"png", "png"};
+  if (t == "openexr" || t == "exr") return {"openexr", "exr"};
+  if (t == "zfile" || t == "shadow") return {"tiff", "z"};
+  if (t == "file" || t == "framebuffer" || t == "it") return format_of_name(d.name);
+  if (is_format(t)) return {t == "jpg" ? "jpeg" : t, t};
+  FileFormat guess = format_of_name(d.name);
+  guess.known = false;
+  return guess;
 }
 
 PixelType pixel_type(const Quantization& q, const std::string& plugin) {

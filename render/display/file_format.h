@@ -3,7 +3,6 @@
 
 #include "render/state/options.h"
 #include "render/texture/image_file.h"
-#include "slvm/support/result.h"
 
 #include <string>
 #include <string_view>
@@ -14,10 +13,11 @@ namespace render {
 struct FileFormat {
   std::string plugin; ///< OpenImageIO's name
   std::string extension;
+  bool known = true; ///< false: nobody here knows the type, and the format is that of "file"
 };
 
 /// The format of a Display type. Interactive types of other renderers become files.
-slvm::Result<FileFormat> choose_format(const DisplayRequest&);
+FileFormat choose_format(const DisplayRequest&);
 
 /// What a channel becomes: quantised integers or floats.
 PixelType pixel_type(const Quantization&, const std::string& plugin);

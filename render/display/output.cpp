@@ -113,22 +113,30 @@ void fit_to(PixelType type, std::vector<FileChannel>& channels) {
   }
 }
 
+/// The name a Display gives, in the current folder when its own is not there: scenes name folders of the
+/// machine they were made on, and a picture in another place is better than none.
+std::string file_name(const DisplayRequest& d) {
+  fs::path path(d.name), folder = path.parent_path();
+  std::error_code error;
+  return folder.empty() || fs::is_directory(folder, error) || !path.has_filename() ? d.name
+                                                                                   : path.filename().string();
+}
+
 /// Empty: display_aovs() has reported that there is nothing to write.
 slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
   std::vector<FileChannel> channels = file_channels(options_, d, aovs_);
   if (channels.empty()) return std::string();
-  auto format = choose_format(d);
-  if (!format) return slvm::Error{format.error()};
-  std::string name = d.name;
-  if (fs::path(name).extension().empty()) name += "." + format->extension;
-  PixelType type = pixel_type(channels[0].quantization, format->plugin);
+  FileFormat format = choose_format(d);
+  std::string name = file_name(d);
+  if (fs::path(name).extension().empty()) name += "." + format.extension;
+  PixelType type = pixel_type(channels[0].quantization, format.plugin);
   fit_to(type, channels);
 
   slvm::WholeFile whole(name);
   ImageFile file;
   describe(file, channels);
   file.path = whole.temporary();
-  file.format = format->plugin;
+  file.format = format.plugin;
   file.type = type;
   add_parameters(d, file);
   if (type == PixelType::kByte)
@@ -144,20 +152,36 @@ slvm::Result<std::string> Writer::write(const DisplayRequest& d) {
   return slvm::Error{fmt::format("cannot write \"{}\": {}", name, why)};
 }
 
+/// Says what becomes of a Display that cannot be had as it is wanted.
+void warn_of_changes(const DisplayRequest& d, slvm::Diagnostics& diagnostics) {
+  if (FileFormat format = choose_format(d); !format.known)
+    diagnostics.warning(
+        d.where, "display",
+        fmt::format(
+            "Display: type \"{}\" is not known and taken for \"file\": the picture is written as {}; known "
+            "are \"tiff\", \"png\", \"openexr\", \"file\", \"null\" and other formats of OpenImageIO",
+            d.type, format.plugin));
+  if (std::string name = file_name(d); name != d.name)
+    diagnostics.warning(
+        d.where, "display",
+        fmt::format("Display: there is no folder \"{}\"; the picture is written to \"{}\" here",
+                    fs::path(d.name).parent_path().string(), name));
+}
+
 void warn_of_compression(const DisplayRequest& d, slvm::Diagnostics& diagnostics) {
   auto it = d.params.find("compression");
-  auto format = choose_format(d);
-  if (it == d.params.end() || !format) return;
-  std::vector<std::string_view> known = compressions(format->plugin);
+  if (it == d.params.end()) return;
+  FileFormat format = choose_format(d);
+  std::vector<std::string_view> known = compressions(format.plugin);
   std::string wanted = lower_case(it->second.strings[0]);
   if (known.empty())
     diagnostics.warning(
         d.where, "display",
-        fmt::format("Display: \"compression\" has no effect: {} files have no choice of it", format->plugin));
-  else if (!is_compression(format->plugin, wanted))
+        fmt::format("Display: \"compression\" has no effect: {} files have no choice of it", format.plugin));
+  else if (!is_compression(format.plugin, wanted))
     diagnostics.warning(d.where, "display",
                         fmt::format("Display: {} files have no compression \"{}\"; known are {}",
-                                    format->plugin, wanted, fmt::join(known, ", ")));
+                                    format.plugin, wanted, fmt::join(known, ", ")));
 }
 
 } // namespace
@@ -169,6 +193,7 @@ std::vector<std::string> write_displays(const Scene& scene, const Image& image,
   Writer writer(scene, image, aovs);
   for (const DisplayRequest& d : scene.options.displays) {
     if (d.type == "null") continue;
+    warn_of_changes(d, diagnostics);
     warn_of_compression(d, diagnostics);
     auto name = writer.write(d);
     if (name && !name->empty())

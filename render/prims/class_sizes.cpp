@@ -38,20 +38,20 @@ std::string check_wrap(const RequestCall& call, int i) {
   return fmt::format("unknown wrap \"{}\"; expected \"periodic\" or \"nonperiodic\"", text);
 }
 
-/// The number of corners of all loops.
-SizesOfRequest loop_corners(std::span<const int> loops, int argument) {
+/// The number of corners of all loops, each of which has at least `fewest`.
+SizesOfRequest loop_corners(std::span<const int> loops, int argument, int fewest = 3) {
   size_t corners = 0;
   for (int n : loops) {
-    if (n < 3) return wrong(argument, fmt::format("a polygon has at least 3 vertices, found {}", n));
+    if (n < fewest)
+      return wrong(argument, fmt::format("a polygon has at least {} vertices, found {}", fewest, n));
     corners += static_cast<size_t>(n);
   }
-  if (loops.empty()) return wrong(argument, "a polygon has at least one loop of vertices");
   return sized(1, corners, corners, corners);
 }
 
 /// Faces that share vertices: their numbers are argument `i`, the counts of their loops stand before.
-SizesOfRequest shared_vertices(const RequestCall& call, int i, size_t faces) {
-  SizesOfRequest loops = loop_corners(call.integers(i - 1), i - 1);
+SizesOfRequest shared_vertices(const RequestCall& call, int i, size_t faces, int fewest = 3) {
+  SizesOfRequest loops = loop_corners(call.integers(i - 1), i - 1, fewest);
   if (!loops.ok()) return loops;
   size_t corners = loops.sizes.facevarying;
   std::span<const int> vertices = call.integers(i);
@@ -164,8 +164,11 @@ SizesOfRequest class_sizes(const RequestCall& call, BasisSteps steps, std::optio
     size_t n = vertices.value_or(points_given(call));
     return sized(1, n, n, n);
   }
-  case kGeneralPolygon: return loop_corners(call.integers(0), 0);
-  case kPointsPolygons: return shared_vertices(call, 1, call.integers(0).size());
+  case kGeneralPolygon:
+    if (call.integers(0).empty()) return wrong(0, "a polygon has at least one loop of vertices");
+    return loop_corners(call.integers(0), 0);
+  // Exporters write points and edges among the faces: they are left out when the mesh is made.
+  case kPointsPolygons: return shared_vertices(call, 1, call.integers(0).size(), 0);
   case kPointsGeneralPolygons: return general_polygons(call);
   case kSubdivisionMesh: return shared_vertices(call, 2, call.integers(1).size());
   case kPatch:

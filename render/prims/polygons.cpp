@@ -156,6 +156,7 @@ PolygonMesh::PolygonMesh(PolygonFaces faces, std::vector<Vec3> P, std::vector<Ty
 void PolygonMesh::add_face(uint32_t f, const Face& face) {
   size_t n = face.vertices.size(), patches = patches_of(n);
   bool holes = face.loops.size() > 1;
+  if (n < 3) return; // a point or an edge
   if (n != 3 || holes) {
     std::vector<glm::dvec2> flat = flattened(face, P_);
     if (holes || !is_convex(flat)) {

@@ -357,6 +357,7 @@ private:
         Sdc::Options::FVAR_LINEAR_NONE, Sdc::Options::FVAR_LINEAR_BOUNDARIES};
     options.SetFVarLinearInterpolation(kFaceVarying[mesh_.facevarying_boundary]);
     if (mesh_.chaikin) options.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
+    if (mesh_.smooth_triangles) options.SetTriangleSubdivision(Sdc::Options::TRI_SUB_SMOOTH);
     using Factory = Far::TopologyRefinerFactory<Topology>;
     Factory::Options create(mesh_.loop       ? Sdc::SCHEME_LOOP
                             : mesh_.bilinear ? Sdc::SCHEME_BILINEAR

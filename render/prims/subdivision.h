@@ -23,6 +23,7 @@ struct SubdivisionMesh {
   int facevarying_boundary = 0; ///< 0 linear, 1 edges and corners, 2 edges only, 3 sharp boundaries
   bool propagate_corners = false;
   bool chaikin = false;
+  bool smooth_triangles = false; ///< catmull-clark: other weights for what becomes of triangles
 };
 
 /// Appends the primitives. Variables as for PointsPolygons; their vertex numbers are in range. The error says

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -49,6 +50,41 @@ bool source_comes_first(const std::string& name, const std::vector<std::string>&
   return false;
 }
 
+bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+/// Whether a source has "surface NAME (" or the like.
+bool defines(std::string_view text, std::string_view name) {
+  for (size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+    size_t after = at + name.size(), kind_end = at;
+    while (after < text.size() && is_space(text[after]))
+      ++after;
+    while (kind_end > 0 && is_space(text[kind_end - 1]))
+      --kind_end;
+    if (after >= text.size() || text[after] != '(' || kind_end == at) continue;
+    for (std::string_view kind : {"surface", "displacement", "light", "volume", "imager"})
+      if (text.substr(0, kind_end).ends_with(kind)) return true;
+  }
+  return false;
+}
+
+/// The source on the path that defines a shader whose file is not called after it; the first by folder and
+/// name.
+std::optional<std::string> source_defining(const std::string& name, const std::vector<std::string>& path) {
+  namespace fs = std::filesystem;
+  for (const std::string& folder : path) {
+    std::vector<std::string> files;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, error))
+      if (entry.path().extension() == ".sl") files.push_back(entry.path().string());
+    std::sort(files.begin(), files.end());
+    for (const std::string& file : files)
+      if (auto text = read_file(file); text && defines(*text, name)) return file;
+  }
+  return {};
+}
+
 slvm::Result<std::string> CompilingLoader::load(const std::string& name,
                                                 const std::vector<std::string>& path) {
   bool as_it_is = name.ends_with(".slo");
@@ -74,6 +110,11 @@ slvm::Result<std::string> CompilingLoader::load(const std::string& name,
   }
   if (as_it_is) return no_such_shader(name, path);
   if (auto source = find_file(name + ".sl", path)) return compile(*source, name, path);
+  if (auto source = source_defining(name, path)) {
+    show_(fmt::format("{}: warning: there is no \"{}.sl\"; the shader is taken from \"{}\"\n", program_, name,
+                      *source));
+    return compile(*source, name, path);
+  }
   return no_such_shader(name, path);
 }
 
@@ -100,9 +141,14 @@ slvm::Result<std::string> CompilingLoader::compile(const std::string& file, cons
   if (diagnostics.has_errors()) return slvm::Error{fmt::format("\"{}\" does not compile", file)};
   for (const slc::CompiledShader& shader : shaders) {
     // The name may come with folders.
-    if (shader.program.name != name && shader.program.name != std::filesystem::path(file).stem()) continue;
+    if (shader.program.name != name && shader.program.name != std::filesystem::path(name).stem()) continue;
     std::vector<std::byte> bytes = slvm::write_slo(shader.program);
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  if (auto other = source_defining(name, path); other && *other != file) {
+    show_(fmt::format("{}: warning: \"{}\" defines no shader \"{}\"; it is taken from \"{}\"\n", program_,
+                      file, name, *other));
+    return compile(*other, name, path);
   }
   return slvm::Error{fmt::format("\"{}\" defines no shader \"{}\"", file, name)};
 }

@@ -7,22 +7,6 @@ namespace render {
 
 namespace {
 
-/// Where a surface sets Oi to 0 and leaves Ci as it started, at Cs, it means a hole ("if (outside) Oi = 0;"),
-/// not light that is added to what lies behind.
-void leave_out_holes(slvm::Grid& grid) {
-  using slvm::Global;
-  float* Ci = grid.varying(Global::kCi);
-  const float* Oi = grid.varying(Global::kOi);
-  const slvm::Planes& Cs = grid.variable(Global::kCs);
-  const size_t pitch = grid.pitch();
-  for (size_t i = 0; i < grid.points(); ++i) {
-    if (Oi[i] != 0 || Oi[pitch + i] != 0 || Oi[2 * pitch + i] != 0) continue;
-    if (Ci[i] != Cs.get(0, i) || Ci[pitch + i] != Cs.get(1, i) || Ci[2 * pitch + i] != Cs.get(2, i)) continue;
-    for (size_t c = 0; c < 3; ++c)
-      Ci[c * pitch + i] = 0;
-  }
-}
-
 class VmGridShader : public GridShader {
 public:
   VmGridShader(const slvm::Machine& machine, const BoundShaders& shaders, SceneServices& services)
@@ -48,7 +32,6 @@ public:
       context_.run(*set.atmosphere, grid);
     else if (set.surface)
       context_.shade_displaced(set, grid);
-    if (set.surface && !set.atmosphere) leave_out_holes(grid);
   }
 
   const slvm::Planes* output(const Primitive&, const slvm::Grid& grid, std::string_view name) override {

@@ -63,7 +63,7 @@ std::optional<StorageClass> storage_class(std::string_view word) {
   if (word == "uniform") return StorageClass::kUniform;
   if (word == "varying") return StorageClass::kVarying;
   if (word == "vertex") return StorageClass::kVertex;
-  if (word == "facevarying") return StorageClass::kFaceVarying;
+  if (word == "facevarying" || word == "facevertex") return StorageClass::kFaceVarying;
   return {};
 }
 

@@ -155,8 +155,12 @@ void Interpreter::error_at(slvm::SourceRange where, const RequestCall& call, std
 }
 
 void Interpreter::warn(const RequestCall& call, std::string_view text) {
+  warn_at(call.where, call, text);
+}
+
+void Interpreter::warn_at(slvm::SourceRange where, const RequestCall& call, std::string_view text) {
   if (error_handler_ == ErrorHandling::kIgnore) return;
-  diagnostics_.warning(call.where, "rib", fmt::format("{}: {}", call.info().name, text));
+  diagnostics_.warning(where, "rib", fmt::format("{}: {}", call.info().name, text));
 }
 
 void Interpreter::warn_once(std::string key, slvm::SourceRange where, std::string_view name,
@@ -175,8 +179,8 @@ void Interpreter::error_handler(const RequestCall& call) {
       error_handler_ = value;
       return;
     }
-  error_at(call.arguments[0].where, call,
-           fmt::format("unknown handler \"{}\"; known are ignore, print, abort", call.text(0)));
+  warn_at(call.arguments[0].where, call,
+          fmt::format("unknown handler \"{}\"; known are ignore, print, abort", call.text(0)));
 }
 
 /// After an error under ErrorHandler "abort", and when archives have replayed more than anyone can want.

@@ -129,6 +129,7 @@ private:
   void error_at(slvm::SourceRange where, const RequestCall&, std::string_view text,
                 RiError kind = RiError::kConsistency);
   void warn(const RequestCall&, std::string_view text);
+  void warn_at(slvm::SourceRange, const RequestCall&, std::string_view text);
   /// One message for each key in a run.
   void warn_once(std::string key, slvm::SourceRange where, std::string_view name, std::string text);
   /// The value of a named parameter, checked. Nothing (reported): it cannot be used.

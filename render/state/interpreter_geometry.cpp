@@ -68,18 +68,30 @@ std::vector<TypedParam> Interpreter::primitive_vars(const RequestCall& call, con
     bool text = d.type == slvm::Type::kString;
     size_t have = text ? p.strings.size() : p.numbers.size();
     size_t want = sizes.of(d.storage) * static_cast<size_t>(d.width());
+    out.push_back({d, p.numbers, p.strings, p.where});
+    TypedParam& v = out.back();
     if (have != want) {
-      error_at(p.where, call,
-               fmt::format("\"{}\" ({} {}) takes {} {}, found {}", d.name, storage_class_name(d.storage),
-                           slvm::type_name(d.type), want, text ? "strings" : "numbers", have));
-      continue;
+      const std::string found =
+          fmt::format("\"{}\" ({} {}) takes {} {}, found {}", d.name, storage_class_name(d.storage),
+                      slvm::type_name(d.type), want, text ? "strings" : "numbers", have);
+      if (have > want) {
+        warn_at(p.where, call, found + "; those left over are not used");
+        v.numbers.resize(text ? 0 : want);
+        v.strings.resize(text ? want : 0);
+      } else if (have == static_cast<size_t>(d.width()) && d.name[0] != 'P') {
+        warn_at(p.where, call, found + "; this value holds all over the primitive");
+        v.declaration.storage = StorageClass::kConstant;
+      } else {
+        error_at(p.where, call, found);
+        out.pop_back();
+        continue;
+      }
     }
-    if (text && interpolates(d.storage)) {
+    if (text && interpolates(v.declaration.storage)) {
       error_at(p.where, call,
                fmt::format("\"{}\" is a string and cannot be {}", d.name, storage_class_name(d.storage)));
-      continue;
+      out.pop_back();
     }
-    out.push_back({d, p.numbers, p.strings, p.where});
   }
   return out;
 }

@@ -135,13 +135,16 @@ void Interpreter::exposure(const RequestCall& call) {
 }
 
 void Interpreter::imager(const RequestCall& call) {
-  options_.imager = nullptr;
+  // An option, but scenes have it among their surfaces, too.
+  if (in_world_) warn(call, "it is an option and holds for the whole frame: it belongs before WorldBegin");
+  auto& frame_imager = in_world_ ? scene_.options.imager : options_.imager;
+  frame_imager = nullptr;
   if (call.text(0) == "null") return;
   auto imager = make_shader(call);
   // Where the background is built in, its parameter is "color", which no parameter of a shader can be called.
   for (ShaderParam& p : imager->params)
     if (imager->name == "background" && p.name == "color") p.name = "bgcolor";
-  options_.imager = imager;
+  frame_imager = imager;
 }
 
 void Interpreter::quantize(const RequestCall& call) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace render {
@@ -39,6 +40,9 @@ void Interpreter::points_polygons(const RequestCall& call) {
   std::span<const int> loops = call.integers(first_argument);
   std::vector<int> loops_of_face(loops.size(), 1);
   if (general) loops_of_face.assign(call.integers(0).begin(), call.integers(0).end());
+  if (loops.empty()) return; // exporters write empty meshes
+  if (auto thin = std::count_if(loops.begin(), loops.end(), [](int n) { return n < 3; }))
+    warn(call, fmt::format("{} of {} faces have fewer than 3 vertices and are left out", thin, loops.size()));
   std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P)) return;

@@ -55,6 +55,8 @@ std::string apply_tag(const Tag& tag, size_t points, SubdivisionMesh& mesh) {
     mesh.facevarying_boundary = first;
   } else if (tag.name == "facevaryingpropagatecorners") {
     mesh.propagate_corners = first != 0;
+  } else if (tag.name == "smoothtriangles") {
+    mesh.smooth_triangles = first != 0;
   } else if (tag.name == "creasemethod") {
     mesh.chaikin = first != 0;
   } else {
@@ -110,7 +112,7 @@ void Interpreter::subdivision_mesh(const RequestCall& call) {
   mesh.nvertices = call.integers(1);
   mesh.vertices = call.integers(2);
   auto sizes = sizes_of(call);
-  if (!sizes) return;
+  if (!sizes || mesh.nvertices.empty()) return; // exporters write empty meshes
   std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
   if (!take_positions(call, vars, P) || !subdivision_tags(call, sizes->vertex, mesh)) return;

@@ -14,6 +14,7 @@
 #include <iostream>
 #include <iterator>
 #include <mutex>
+#include <new>
 #include <unistd.h>
 
 namespace {
@@ -172,6 +173,9 @@ int main(int argc, char** argv) {
   if (arguments.exit_status) return *arguments.exit_status;
   try {
     return run(arguments);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "slrender: error: there is not enough memory\n");
+    return kInternal;
   } catch (const std::exception& e) {
     fmt::print(stderr, "slrender: internal error: {}\n", e.what());
     return kInternal;

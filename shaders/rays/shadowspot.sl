@@ -4,8 +4,11 @@
  *     Cl = intensity lightcolor c^beamdistribution / |L|^2 edge transmission(Ps, from)
  *
  * c is the cosine between axis and L. Rays go from the surface in a cone towards the lamp, so shadows are sharp where the thing that casts
- * them touches the surface, and softer the farther away it is. Objects cast shadows by Attribute "visibility" "transmission".
+ * them touches the surface, and softer the farther away it is. Objects cast shadows by Attribute "visibility" "transmission". With a
+ * shadow map (MakeShadow, or Display mode "z") in shadowname the light has its shadows instead, as scenes of other renderers expect of a
+ * light of this name.
  */
+#include "mapshadow.h"
 #include "tracedshadow.h"
 
 light
@@ -16,9 +19,10 @@ shadowspot(float intensity = 1;                   /* brightness at distance 1 on
            float coneangle = radians(30);         /* from the axis to the edge of the cone */
            float conedeltaangle = radians(5);     /* width of the soft edge, inside the cone */
            float beamdistribution = 2;            /* the larger, the faster the light falls off beside the axis */
+           string shadowname = "";                /* a shadow map instead of rays; "" and "raytrace": rays */
            float samples = 1;                     /* shadow rays a point */
            float minsamples = 0;                  /* where so many agree, no more are shot; 0: always all */
-           float blur = 0;                        /* half angle of the cone of rays, radians */
+           float blur = 0;                        /* half angle of the cone of rays, radians; a part of the map */
            float radius = 0;                      /* of the lamp: the cone that it fills is taken in place of blur; 0: blur counts */
            float bias = -1;                       /* negative: that of the surface */
            string subset = "";                    /* the groups of objects that cast shadows; "": all */
@@ -34,6 +38,11 @@ shadowspot(float intensity = 1;                   /* brightness at distance 1 on
     float falloff = pow(c, beamdistribution) / (distance * distance);
     falloff *= smoothstep(cos(coneangle), cos(coneangle - conedeltaangle), c);
     float cone = radius > 0 ? atan(radius, distance) : blur;
-    Cl = falloff * intensity * lightcolor * shadowthrough(Ps, from, samples, minsamples, cone, bias, subset);
+    color through = 1;
+    if (shadowname == "" || shadowname == "raytrace")
+      through = shadowthrough(Ps, from, samples, minsamples, cone, bias, subset);
+    else
+      through = 1 - mapshadow(shadowname, Ps, L, blur);
+    Cl = falloff * intensity * lightcolor * through;
   }
 }

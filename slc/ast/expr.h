@@ -103,7 +103,8 @@ struct VariableExpr : ExprOf<ExprKind::kVariable> {
   using ExprOf::ExprOf;
 };
 
-/// One element of an array, value or place: `variable` is the array; `index` a float, to be truncated.
+/// One element of an array, value or place: `variable` is the array; `index` a float, to be truncated. Where
+/// the variable is no array but a triple, one of its components, a float.
 struct IndexExpr : ExprOf<ExprKind::kIndex> {
   std::string name;
   Variable* variable = nullptr;

@@ -102,13 +102,27 @@ Lowering::Place Lowering::place(const Expr& e) {
     const auto& i = static_cast<const IndexExpr&>(e);
     p.variable = i.variable;
     p.element = true;
+    p.component = i.variable->array_length == kNotArray;
     p.subscript = value(*i.index);
   }
   return p;
 }
 
+namespace {
+
+/// The row of comp() or setcomp() for this type.
+ShadeopId component_row(std::string_view function, Type type) {
+  for (ShadeopId id : slvm::shadeop_overloads(function))
+    if (slvm::shadeop(id).signature.params[0].type == type) return id;
+  assert(false && "every triple has its rows");
+  return kNoShadeop;
+}
+
+} // namespace
+
 slvm::ir::ValueId Lowering::load(const Place& p) {
   if (p.whole_array) return b_.array(array_of(*p.variable));
+  if (p.component) return call_row(component_row("comp", p.variable->type), {read(*p.variable), p.subscript});
   return p.element ? b_.array_load(array_of(*p.variable), p.subscript) : read(*p.variable);
 }
 
@@ -116,6 +130,12 @@ void Lowering::store(const Place& p, ValueId value) {
   if (p.whole_array) return; // the call stored into the array itself
   if (!p.element) {
     write(*p.variable, value);
+    return;
+  }
+  if (p.component) {
+    const Values args{read(*p.variable), p.subscript, value};
+    write(*p.variable,
+          b_.call(component_row("setcomp", p.variable->type), args, std::span(&p.variable->type, 1))[0]);
     return;
   }
   uint32_t array = array_of(*p.variable);

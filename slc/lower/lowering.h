@@ -106,10 +106,11 @@ private:
   void array_assignment(uint32_t array, const Expr& value);
   ValueId call_row(ShadeopId row, std::vector<ValueId> args);
 
-  /// A variable or array element that something is stored to; its subscript is evaluated once.
+  /// A variable, array element or component that something is stored to; its subscript is evaluated once.
   struct Place {
     const Variable* variable = nullptr;
-    bool element = false;
+    bool element = false;   ///< with a subscript
+    bool component = false; ///< that of a color, point, vector or normal
     ValueId subscript = ir::kNoValue;
     bool whole_array = false;
   };

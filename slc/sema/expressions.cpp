@@ -102,23 +102,23 @@ TypeSet Checker::analyse_name(VariableExpr& e) {
   return e.variable->type;
 }
 
+// An element of an array, or a component: comp(P, i) and setcomp(P, i, x) as PRMan 13 writes them.
 TypeSet Checker::analyse_index(IndexExpr& e) {
   analyse(*e.index);
   e.variable = resolve(e.name, e.range);
   if (!e.variable) return TypeSet::error();
-  if (e.variable->array_length == kNotArray) {
-    bool matrix = e.variable->type == Type::kMatrix, triple = slvm::is_triple(e.variable->type);
+  const bool component = e.variable->array_length == kNotArray;
+  if (component && !slvm::is_triple(e.variable->type)) {
+    bool matrix = e.variable->type == Type::kMatrix;
     report(diags_, Msg::kNotAnArray, e.range, e.name,
-           matrix   ? fmt::format("; its elements are comp({}, row, column)", e.name)
-           : triple ? fmt::format("; its components are comp({0}, i), set by setcomp({0}, i, value)", e.name)
-                    : std::string());
+           matrix ? fmt::format("; its elements are comp({}, row, column)", e.name) : std::string());
     return TypeSet::error();
   }
+  const int length = component ? 3 : e.variable->array_length;
   float index = 0;
-  if (e.variable->array_length > 0 && constant_value(*e.index, index) &&
-      (index < 0 || index >= static_cast<float>(e.variable->array_length)))
-    report(diags_, Msg::kIndexRange, e.range, index, e.name, e.variable->array_length);
-  return e.variable->type;
+  if (length > 0 && constant_value(*e.index, index) && (index < 0 || index >= static_cast<float>(length)))
+    report(diags_, Msg::kIndexRange, e.range, index, e.name, length);
+  return component ? Type::kFloat : e.variable->type;
 }
 
 // `N.y`, where there is no variable y: reported.
@@ -271,7 +271,7 @@ TypeSet Checker::analyse_assign(AssignExpr& e) {
     auto combined = std::make_unique<OperatorExpr>(e.range);
     combined->op = e.op;
     auto old = std::make_unique<TargetValueExpr>(e.target->range);
-    old->type = v->type;
+    old->type = target.preferred();
     combined->operands.push_back(std::move(old));
     combined->operands.push_back(std::move(e.value));
     e.value = std::move(combined);

@@ -96,10 +96,12 @@ ShadingContext::~ShadingContext() = default;
 
 namespace {
 
-// Ci and Oi begin as the surface's colour and opacity.
-void begin_output(Grid& grid, Global out, Global in) {
-  const Planes from = grid.variable(in);
-  float* to = grid.varying(out);
+// A surface that adds to Ci without setting it first ("Ci += Kr * trace(P, R);") means to start from black,
+// and one that sets Oi = 0 and leaves Ci alone means a hole; Oi begins as the surface's opacity.
+void begin_surface(Grid& grid) {
+  std::fill_n(grid.varying(Global::kCi), 3 * grid.pitch(), 0.0f);
+  const Planes from = grid.variable(Global::kOs);
+  float* to = grid.varying(Global::kOi);
   for (size_t c = 0; c < 3; ++c) {
     float* plane = to + c * grid.pitch();
     if (from.data && from.step)
@@ -152,8 +154,7 @@ void ShadingContext::shade_surface(const ShaderSet& set, Grid& grid) {
   if (!set.displacement) impl_->state.displacement = nullptr; // that of another grid
   impl_->state.surface = impl_->state.atmosphere = nullptr;
   impl_->state.interior = impl_->state.exterior = nullptr;
-  begin_output(grid, Global::kCi, Global::kCs);
-  begin_output(grid, Global::kOi, Global::kOs);
+  begin_surface(grid);
   impl_->announce(Impl::kAtmosphere, set.atmosphere, set.surface);
   const bool surface_asks = set.surface && set.surface->bound().reads_messages;
   impl_->announce_volumes(surface_asks ? set.surface : set.atmosphere);

@@ -37,6 +37,8 @@ namespace grid_ops {
 #define GRIDOP(name, signature, function, flags, doc) void function(const GridCall&);
 #include "slvm/format/shadeops.def"
 #undef GRIDOP
+/// What a PENDING row does where its shader runs all the same: its results are 0, and it says so.
+void unserved(const GridCall&);
 } // namespace grid_ops
 #undef SHADEOP
 #undef RSLOP

@@ -17,7 +17,7 @@ enum class ShadeopKind : uint8_t {
   kGrid,    ///< a function over the whole grid (a barrier): derivatives, services, messages, printing
   kRsl,     ///< an RSL body in stdlib/builtins, inlined by slc; never appears in compiled code
   kPending, ///< known to the language and type-checked; binding a shader that still calls it is an error
-            ///< naming it
+            ///< naming it, or its results are 0 (MachineOptions::zero_for_unserved)
   kPlugin,  ///< a function of a plug-in, no row of the table: slvm/format/plugin_shadeop.h
 };
 

@@ -59,3 +59,13 @@ color phong(normal N; vector V; float size) {
   }
   return total;
 }
+
+/* The light that lamps send by mirrors and lenses: a lookup in the map that the object names. */
+color caustic(point P; normal N; uniform float estimator = 50; uniform float maxdist = 1e30) {
+  uniform string map = "";
+  attribute("photon:causticmap", map);
+  color light = 0;
+  if (map != "")
+    light = photonmap(map, P, N, "estimator", estimator, "maxdist", maxdist);
+  return light;
+}

@@ -19,8 +19,8 @@ surface members(float k = 1)
   Ci = color(Cs.rgb); // expect-error: values have no members: write Cs itself, all its components
   P.z = 1; // expect-error: values have no members: write setzcomp(P, value)
   Cs.r += 2; // expect-error: values have no members: write setcomp(Cs, 0, value)
-  Ci = P[1] + Cs[0] + y + r; // expect-error: 'P' is no array; its components are comp(P, i), set by setcomp(P, i, value) // expect-error: 'Cs' is no array; its components are comp(Cs, i), set by setcomp(Cs, i, value)
-  N[2] = 1; // expect-error: 'N' is no array; its components are comp(N, i), set by setcomp(N, i, value)
+  Ci = P[1] + Cs[3] + y + r; // expect-error: index 3 is outside array 'Cs' of 3 elements
+  N[2] = k[0]; // expect-error: 'k' is no array
 }
 surface functions(matrix m = 1; string map = "")
 {

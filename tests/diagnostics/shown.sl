@@ -10,6 +10,6 @@ surface shown(float Kd = 1 float half = 0.5; string map = 'a.tex') // expect-err
   c = smothstep(0, 1, s) // expect-error: unknown function // expect-error: expected ';'
   if (x = 2) Ci = N.y; // expect-warning: this assigns // expect-error: no members
   elsif (x > 1) x++; // expect-error: no 'elsif' // expect-error: no operator '++'
-  Oi = c[0] + lit(x) * HALF(c); // expect-error: 'c' is no array // expect-error: unknown variable 'hlaf'
+  Oi = x[0] + lit(x) * HALF(c); // expect-error: 'x' is no array // expect-error: unknown variable 'hlaf'
   Ci = SIZE * 2; // expect-error: expected an expression
 }

@@ -319,14 +319,33 @@ TEST_F(Display, previews_show_what_is_finished) {
 }
 
 TEST_F(Display, nothing_is_left_of_a_failed_write) {
-  std::string nowhere = path("no/such/folder/a.png");
-  EXPECT_THAT(write("Display \"" + nowhere + "\" \"png\" \"rgba\""), HasSubstr("Display: cannot write"));
-  EXPECT_TRUE(fs::is_empty(directory_));
+  std::string folder = path("a.png");
+  fs::create_directory(folder);
+  EXPECT_THAT(write("Display \"" + folder + "\" \"png\" \"rgba\""), HasSubstr("Display: cannot write"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory_), {}), 1);
 }
 
-TEST_F(Display, errors_name_type_and_mode) {
-  EXPECT_THAT(write("Display \"x.foo\" \"foo\" \"rgba\""),
-              HasSubstr("Display: unknown type \"foo\"; expected \"tiff\""));
+TEST_F(Display, without_its_folder_a_picture_comes_to_the_current_one) {
+  const fs::path before = fs::current_path();
+  fs::current_path(directory_);
+  std::string messages = write("Display \"no/such/folder/a.png\" \"png\" \"rgba\"");
+  fs::current_path(before);
+  EXPECT_THAT(messages, HasSubstr("Display: there is no folder \"no/such/folder\"; the picture is written to "
+                                  "\"a.png\" here"));
+  EXPECT_TRUE(fs::exists(path("a.png")));
+}
+
+TEST_F(Display, drivers_of_other_renderers_become_files) {
+  const std::string name = path("x.exr");
+  EXPECT_THAT(write("Display \"" + name + "\" \"piqsl\" \"rgba\""),
+              HasSubstr("Display: type \"piqsl\" is not known and taken for \"file\": the picture is written "
+                        "as exr; known are \"tiff\""));
+  EXPECT_TRUE(fs::exists(name));
+  EXPECT_THAT(write("Display \"" + path("y") + "\" \"sgif\" \"rgba\""), HasSubstr("is written as tiff"));
+  EXPECT_TRUE(fs::exists(path("y.tif")));
+}
+
+TEST_F(Display, errors_name_the_mode) {
   EXPECT_THAT(write("Display \"x.exr\" \"openexr\" \"varying string x\""),
               HasSubstr("Display: \"varying string x\" cannot be shown as an image"));
   EXPECT_EQ(write("Display \"x\" \"null\" \"rgba\""), "");

@@ -154,6 +154,20 @@ TEST(Polygons, many_faces_with_holes_and_variables_of_face_and_corner) {
   EXPECT_NEAR(f, 15.5 + 24, 1e-3);
 }
 
+TEST(Polygons, empty_meshes_and_faces_without_area) {
+  for (std::string nothing : {"PointsPolygons [] [] \"P\" []", "PointsPolygons [] [] \"P\" [1 2 3]",
+                              "PointsGeneralPolygons [] [] [] \"P\" []",
+                              "SubdivisionMesh \"catmull-clark\" [] [] [] [] [] [] \"P\" []"})
+    EXPECT_EQ(scene_of(nothing).primitives.size(), 0u) << nothing;
+  // A point and an edge among the faces: the square keeps its own uniform value. They are warned of.
+  Rendered r = render_text("Format 4 4 1 WorldBegin PointsPolygons [1 4 2 0] [0 0 1 2 3 1 2] \"P\" "
+                           "[0 0 0 2 0 0 2 2 0 0 2 0] \"uniform float id\" [1 2 3 4] WorldEnd");
+  EXPECT_THAT(r.messages, HasSubstr("3 of 4 faces have fewer than 3 vertices and are left out"));
+  double id = 0;
+  EXPECT_NEAR(area_of(r.scene, "id", &id), 4, 1e-6);
+  EXPECT_NEAR(id, 4 * 2, 1e-6);
+}
+
 TEST(Polygons, messages_of_general_polygons) {
   auto message = [](const std::string& rib) { return messages_of("WorldBegin " + rib + " WorldEnd"); };
   EXPECT_THAT(message("GeneralPolygon [3 2] \"P\" [0 0 0 1 0 0 0 1 0 0 0 0 1 1 0]"),

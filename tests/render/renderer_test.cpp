@@ -285,8 +285,20 @@ TEST_F(RendererTest, colours_that_are_not_numbers_are_reported_and_drawn_black) 
   EXPECT_EQ(value(8, 8, 3), 1);
 }
 
+TEST_F(RendererTest, an_imager_inside_the_world_is_that_of_the_frame) {
+  shaders_["background"] = "imager background(color bgcolor = 1) { Ci += (1 - alpha) * bgcolor; }";
+  const std::string world = "WorldBegin Imager \"background\" \"color\" [.5 .25 0] WorldEnd ";
+  EXPECT_THAT(render(world),
+              HasSubstr("warning: Imager: it is an option and holds for the whole frame: it belongs "
+                        "before WorldBegin"));
+  EXPECT_EQ(value(8, 8, 0), 0.5f);
+  EXPECT_EQ(value(8, 8, 1), 0.25f);
+  render(world + "WorldBegin WorldEnd"); // and of no other frame
+  EXPECT_EQ(value(8, 8, 0), 0);
+}
+
 TEST_F(RendererTest, a_surface_that_only_sets_oi_to_zero_makes_a_hole) {
-  shaders_["ring"] = "surface ring() { if (u < .5) Oi = 0; }";
+  shaders_["ring"] = "surface ring() { if (u < .5) Oi = 0; else Ci = Cs; }";
   shaders_["glow"] = "surface glow() { Ci = .25; Oi = 0; }";
   shaders_["show"] = kShow;
   const std::string sheet = "Patch \"bilinear\" \"P\" [-1 1 5 1 1 5 -1 -1 5 1 -1 5] ";

@@ -216,6 +216,17 @@ TEST_F(SlrenderTest, old_scenes_render_with_warnings) {
   EXPECT_TRUE(exists("a.png"));
 }
 
+TEST_F(SlrenderTest, a_picture_larger_than_memory_is_not_begun) {
+  file("vast.rib", "Display \"vast.tif\" \"tiff\" \"rgb\" Format 65536 65536 1 WorldBegin WorldEnd");
+  Outcome o = run("vast.rib");
+  EXPECT_EQ(o.status, 1);
+  EXPECT_THAT(o.text,
+              HasSubstr("error: a picture of 65536 x 65536 pixels takes 137 GB, and this machine has "));
+  EXPECT_THAT(o.text, HasSubstr("rendered with CropWindow or --crop"));
+  EXPECT_EQ(run("--crop 0 0.0001 0 0.0001 vast.rib").text, "");
+  EXPECT_TRUE(exists("vast.tif"));
+}
+
 TEST_F(SlrenderTest, exit_codes) {
   file("bad.rib", "Sphere\nWorldBegin WorldEnd\n");
   Outcome bad = run("-d null bad.rib");
@@ -247,6 +258,28 @@ TEST_F(SlrenderTest, sources_on_the_search_path_are_compiled) {
   EXPECT_EQ(o.status, 1);
   EXPECT_THAT(o.text, HasSubstr("glow.sl:1:"));
   EXPECT_THAT(o.text, HasSubstr("error: Surface: \"glow.sl\" does not compile"));
+}
+
+TEST_F(SlrenderTest, shaders_are_found_in_sources_of_other_names) {
+  file("first.sl", "surface second() { Ci = color(0, 1, 0); } /* surface third ( */");
+  file("second.sl", "surface first() { Ci = color(1, 0, 0); }");
+  file("s.rib", "Display \"s.tif\" \"tiff\" \"rgb\" Format 2 1 1 PixelFilter \"box\" 1 1 ScreenWindow -2 2 "
+                "-1 1 WorldBegin "
+                "Surface \"first\" Polygon \"P\" [-2 -1 1 0 -1 1 0 1 1 -2 1 1] "
+                "Surface \"second\" Polygon \"P\" [0 -1 1 2 -1 1 2 1 1 0 1 1] WorldEnd");
+  Outcome o = run("s.rib");
+  EXPECT_EQ(o.status, 0);
+  EXPECT_THAT(o.text, HasSubstr("first.sl\" defines no shader \"first\"; it is taken from "));
+  const auto seen = pixels("s.tif");
+  ASSERT_EQ(seen.size(), 6u);
+  EXPECT_EQ(seen[0], 1);
+  EXPECT_EQ(seen[1], 0);
+  EXPECT_EQ(seen[3], 0);
+  EXPECT_EQ(seen[4], 1);
+  file("other.sl", "volume none() { Ci = 0; }\nsurface   absent\n(float k = 1) { Ci = k; }");
+  file("t.rib", "Display \"t.tif\" \"tiff\" \"rgb\" Format 1 1 1 WorldBegin Surface \"absent\" Sphere 1 -1 1 "
+                "360 WorldEnd");
+  EXPECT_THAT(run("t.rib").text, HasSubstr("warning: there is no \"absent.sl\"; the shader is taken from "));
 }
 
 TEST_F(SlrenderTest, a_source_beats_what_is_compiled_in_a_later_folder) {

@@ -127,6 +127,19 @@ TEST(Subdivision, holes_creases_and_corners) {
   expect_near(at(crease.primitives[0], 0.5f, 0).P, {-44 / 48.0f, 0, -1}, 1e-4f);
 }
 
+TEST(Subdivision, triangles_smoother) {
+  auto edge_of_tetrahedron = [](const std::string& tags) {
+    const std::string rib = "SubdivisionMesh \"catmull-clark\" [3 3 3 3] [0 1 2 0 3 1 1 3 2 2 3 0] " + tags +
+                            "\"P\" [1 1 1 -1 -1 1 -1 1 -1 1 -1 -1]";
+    EXPECT_EQ(message(rib), "");
+    return glm::length(at(scene_of(rib).primitives[0], 1, 0).P); // the middle of an edge, by symmetry
+  };
+  const float plain = edge_of_tetrahedron("");
+  EXPECT_EQ(edge_of_tetrahedron("[\"smoothtriangles\"] [1 0] [0] [] "), plain);
+  // The weight of the faces' middles in that of an edge is 0.470 instead of 1/4, and these lie further in.
+  EXPECT_LT(edge_of_tetrahedron("[\"smoothtriangles\"] [1 1] [1] [1] "), plain - 0.01f);
+}
+
 TEST(Subdivision, faces_with_any_number_of_corners) {
   // A tetrahedron: three quarters a face.
   Scene s = scene_of("SubdivisionMesh \"catmull-clark\" [3 3 3 3] [0 1 2 0 3 1 1 3 2 2 3 0] \"P\" "

@@ -108,8 +108,12 @@ private:
   }
 
   void read_tokens() {
-    const PointValue samples(call_.operands[stores_ + 2].planes);
-    query_.samples = static_cast<float>(sample_count(samples.at(first_point(run_))));
+    const float samples = PointValue(call_.operands[stores_ + 2].planes).at(first_point(run_));
+    // Calls that mean a point cloud have no use for samples and say 0.
+    const bool cloud =
+        tokens_.number("pointbased", 0) != 0 || (samples <= 0 && !tokens_.text("filename").empty());
+    constexpr float kInsteadOfCloud = 64;
+    query_.samples = static_cast<float>(sample_count(cloud && samples <= 0 ? kInsteadOfCloud : samples));
     query_.min_samples = tokens_.fewest_samples();
     const std::string_view distribution = tokens_.text("distribution");
     query_.cosine = distribution != "uniform";
@@ -135,7 +139,7 @@ private:
     query_.environment_map = tokens_.text("environmentmap");
     read_environment_space();
     query_.cache_space = tokens_.text("coordsystem");
-    if (tokens_.number("pointbased", 0) != 0)
+    if (cloud)
       run_.report(call_.code, MessageSeverity::kWarning,
                   fmt::format("{}: there are no point clouds here; rays are traced", call_.info.name),
                   mask_count(run_.mask.current(), run_.points));

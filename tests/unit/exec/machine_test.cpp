@@ -51,14 +51,33 @@ TEST_F(MachineTest, WrongParametersAreNamed) {
 }
 
 TEST_F(MachineTest, WhatTheBuildCannotServeIsNamedAtBinding) {
-  auto shader =
-      machine.load(compile("surface s(string map = \"\") { if (map != \"\") Ci = caustic(P, N); }"));
+  auto shader = machine.load(
+      compile("surface s(string map = \"\") { if (map != \"\") Ci = occlusion(map, P, N, 1); }"));
   ASSERT_TRUE(shader);
   std::vector<ParamValue> map{{"map", {Type::kString, 0, {}, {"brick.tx"}}}};
   auto traced = machine.instantiate(*shader, map);
   ASSERT_FALSE(traced);
-  EXPECT_EQ(traced.error(), "surface \"s\" calls 'caustic', which this build cannot serve");
+  EXPECT_EQ(traced.error(), "surface \"s\" calls 'occlusion', which this build cannot serve");
   EXPECT_TRUE(machine.instantiate(*shader, {})); // the default needs no photons
+}
+
+TEST_F(MachineTest, WhatTheBuildCannotServeGivesZeroWhereThatIsWanted) {
+  Machine lenient({.zero_for_unserved = true});
+  auto surface =
+      instantiate(lenient, "surface s(string file = \"x\") { color got = 5; float found = 1;"
+                           "found = texture3d(file, P, N, \"c\", got); bake(file, s, t, P);"
+                           "Ci = 0.25 + occlusion(file, P, N, 4); Oi = color(found, comp(got, 0), 0); }");
+  Grid grid = square(3, 1);
+  ShadingContext context(lenient, services);
+  context.shade({.surface = surface.get()}, grid);
+  EXPECT_THAT(red(grid), Each(0.25f));
+  EXPECT_EQ(grid.variable(Global::kOi).get(0, 1), 0.0f);
+  EXPECT_EQ(grid.variable(Global::kOi).get(1, 1), 5.0f); // what it would bring stays as it was
+  std::vector<RuntimeMessage> messages = lenient.messages();
+  ASSERT_EQ(messages.size(), 3u);
+  EXPECT_EQ(messages[1].text, "occlusion: this version cannot carry it out; its results are 0");
+  EXPECT_EQ(messages[1].severity, MessageSeverity::kWarning);
+  EXPECT_EQ(messages[1].points, 3u);
 }
 
 // Of a surface only some outputs: what they do not need does not run.
@@ -77,7 +96,7 @@ TEST_F(MachineTest, NarrowedSurfacesComputeWhatIsWanted) {
   ShadingContext context(machine, services);
   context.shade({.surface = narrow.get()}, grid);
   EXPECT_EQ(grid.variable(Global::kOi).get(1, 3), 0.25f); // of the value the parameter was given
-  EXPECT_EQ(grid.variable(Global::kCi).get(1, 3), 1.0f);  // as it started
+  EXPECT_EQ(grid.variable(Global::kCi).get(1, 3), 0.0f);  // as it started
   EXPECT_THAT(services.printed, HasSubstr("x"));
   const Planes* seen = context.output(*narrow, "seen");
   ASSERT_TRUE(seen);
@@ -140,14 +159,16 @@ TEST_F(MachineTest, OutputParametersCanBeRead) {
   EXPECT_EQ(context.output(*surface, "thrice"), nullptr);
 }
 
-TEST_F(MachineTest, CiAndOiBeginAsSurfaceColour) {
+TEST_F(MachineTest, CiBeginsBlackAndOiAsSurfaceOpacity) {
   Grid grid = square(2, 2);
-  grid.set_uniform(Global::kCs, std::vector<float>{0.25f, 0.5f, 1});
-  auto surface = instantiate(machine, "surface null() {}");
+  grid.set_uniform(Global::kOs, std::vector<float>{0.25f, 0.5f, 1});
+  auto surface = instantiate(machine, "surface s() { Ci += color(0, 0, .125); }");
   ShadingContext context(machine, services);
   context.shade({.surface = surface.get()}, grid);
-  EXPECT_THAT(red(grid), Each(0.25f));
-  EXPECT_THAT(red(grid, 2), Each(1.0f));
+  EXPECT_THAT(red(grid), Each(0.0f));
+  EXPECT_THAT(red(grid, 2), Each(0.125f));
+  EXPECT_EQ(grid.variable(Global::kOi).get(0, 3), 0.25f);
+  EXPECT_EQ(grid.variable(Global::kOi).get(1, 3), 0.5f);
 }
 
 TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
@@ -164,7 +185,7 @@ TEST_F(MachineTest, RuntimeErrorsAreReportedOnceWithACount) {
 
 TEST_F(MachineTest, ValuesAreNotSentToLightsThatCannotRunWithThem) {
   auto light = instantiate(machine, "light l(float w = 1; float traced = 0;) { illuminate (point (0, 0, 0)) {"
-                                    " Cl = w; if (traced == 1) Cl *= caustic(Ps, Ns); } }");
+                                    " Cl = w; if (traced == 1) Cl *= occlusion(\"x\", Ps, Ns, 1); } }");
   services.light_list = {light.get()};
   auto surface = instantiate(machine, "surface s() { illuminance (P, \"send:light:w\", 5) Ci = Cl; }");
   Grid grid = square(3, 1);
@@ -174,7 +195,7 @@ TEST_F(MachineTest, ValuesAreNotSentToLightsThatCannotRunWithThem) {
   EXPECT_THAT(red(grid), Each(1.0f));
   ASSERT_EQ(machine.messages().size(), 1u);
   EXPECT_EQ(machine.messages()[0].text,
-            "no values can be sent to it: light \"l\" calls 'caustic', which this build cannot serve");
+            "no values can be sent to it: light \"l\" calls 'occlusion', which this build cannot serve");
   EXPECT_EQ(machine.messages()[0].times, 1u);
 }
 

@@ -378,6 +378,17 @@ TEST_F(Trace, MapsLieInTheSpacesThatShadersKnow) {
   EXPECT_EQ(scene_.hemispheres.at(0).to_map, Matrix4{});
 }
 
+TEST_F(Trace, CallsThatMeanAPointCloudHaveRays) {
+  run("result = occlusion(P, N, 0, \"filename\", \"room.ptc\") + occlusion(P, N, 8, \"pointbased\", 1) + "
+      "occlusion(P, N, 0);");
+  ASSERT_EQ(scene_.hemispheres.size(), 3u);
+  EXPECT_EQ(scene_.hemispheres[0].samples, 64);
+  EXPECT_EQ(scene_.hemispheres[1].samples, 8);
+  EXPECT_EQ(scene_.hemispheres[2].samples, 1);
+  EXPECT_EQ(messages(),
+            (std::vector<std::string>{"occlusion: there are no point clouds here; rays are traced"}));
+}
+
 TEST_F(Trace, NowhereToLookWithoutNormal) {
   EXPECT_EQ(run("result = 3 + occlusion(P, u * N, 8);"), (std::vector<float>{3, 4.25f}));
   EXPECT_EQ(scene_.hemispheres.at(0).active, (std::vector<uint8_t>{0, 1}));
