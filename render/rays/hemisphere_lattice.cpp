@@ -11,6 +11,9 @@ namespace {
 
 /// Lines and cells of fewer steps whose ends agree are interpolated without a look at their middles.
 constexpr int kVerified = 4;
+/// Points so few steps apart whose samples agree have nothing between them that would be seen, near as it may
+/// be.
+constexpr int kBeside = 2;
 /// Neighbouring normals with less between them, as a cosine, are of one side of a surface.
 constexpr float kTurnedRound = 0.3f;
 /// Rectangles of no more steps than this are not halved further where normals turn round in them.
@@ -143,7 +146,7 @@ private:
     if (steps > p_.most_steps) return false;
     const std::array<int, 2> ends{first, first + stride * steps};
     std::array<float, 2> reach = reaches(ends);
-    if (steps >= kVerified && all_blocked(ends)) reach.fill(kInfinity);
+    if (steps <= kBeside || (steps >= kVerified && all_blocked(ends))) reach.fill(kInfinity);
     for (int k = first; k <= ends[1]; k += stride) {
       if (!on(k)) return false;
       if (k == first || k == ends[1]) continue;
@@ -224,7 +227,9 @@ private:
     const std::array<int, 4> corners{j0 * p_.nu + i0, j0 * p_.nu + i1, j1 * p_.nu + i0, j1 * p_.nu + i1};
     if (!std::all_of(corners.begin(), corners.end(), [&](int k) { return on(k); })) return false;
     std::array<float, 4> reach = reaches(corners);
-    if (std::min(i1 - i0, j1 - j0) >= kVerified && all_blocked(corners)) reach.fill(kInfinity);
+    if (std::max(i1 - i0, j1 - j0) <= kBeside ||
+        (std::min(i1 - i0, j1 - j0) >= kVerified && all_blocked(corners)))
+      reach.fill(kInfinity);
     for (int j = j0; j <= j1; ++j)
       for (int i = i0; i <= i1; ++i) {
         int k = j * p_.nu + i;
