@@ -6,7 +6,9 @@
 #include "render/state/math.h"
 
 #include <array>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace render {
@@ -49,10 +51,20 @@ struct UvPoints {
   }
 };
 
+/// For vectors: values without an initialiser hold anything.
+template <class T> struct UnsetAllocator : std::allocator<T> {
+  template <class U> struct rebind { using other = UnsetAllocator<U>; };
+  template <class U> void construct(U* at) { ::new (static_cast<void*>(at)) U; }
+  template <class U, class... Args> void construct(U* at, Args&&... args) {
+    ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+  }
+};
+
 /// Points of a surface, in object space. N is along dPdu x dPdv, of any length, and never zero
 /// where the surface has a tangent plane (poles and collapsed edges included).
 struct SurfaceLattice {
-  std::vector<Vec3> P, dPdu, dPdv, N;
+  using Vectors = std::vector<Vec3, UnsetAllocator<Vec3>>;
+  Vectors P, dPdu, dPdv, N;
   void resize(size_t points) {
     P.resize(points);
     dPdu.resize(points);

@@ -124,8 +124,7 @@ public:
         const size_t count = block(k, width);
         turn(at.u.data() + k, count, columns);
         find_profile(at.v.data() + k, count, rows);
-        for (size_t i = 0; i < count; ++i)
-          set(columns, i, rows, i, k + i, out);
+        set_pairs(columns, rows, count, k, out);
       }
       return;
     }
@@ -176,13 +175,41 @@ private:
       out.n[1][i] = y * scale;
       out.n[2][i] = z * scale;
     }
-    for (size_t i = 0; i < count; ++i) {
+    auto is_on_axis = [&](size_t i) {
       const float off = out.q[0][i] * out.q[0][i] + out.q[1][i] * out.q[1][i];
-      const Vec3 dq(out.dq[0][i], out.dq[1][i], out.dq[2][i]);
-      if (off >= kOnAxis * glm::dot(dq, dq) && length[i] > 0) continue;
-      const Vec3 n = normal_at_axis(dq, v[i]);
+      const float x = out.dq[0][i], y = out.dq[1][i], z = out.dq[2][i];
+      return !(off >= kOnAxis * (x * x + y * y + z * z)) | !(length[i] > 0);
+    };
+    int on_axis = 0;
+    for (size_t i = 0; i < count; ++i)
+      on_axis += is_on_axis(i);
+    for (size_t i = 0; i < count && on_axis > 0; ++i) {
+      if (!is_on_axis(i)) continue;
+      const Vec3 n = normal_at_axis({out.dq[0][i], out.dq[1][i], out.dq[2][i]}, v[i]);
       for (int c = 0; c < 3; ++c)
         out.n[c][i] = n[c];
+    }
+  }
+
+  /// Point first + i of `out` is that of column i and row i.
+  void set_pairs(const Columns& columns, const Rows& rows, size_t count, size_t first,
+                 SurfaceLattice& out) const {
+    const float *s = columns.sine, *c = columns.cosine;
+    float x[kBlock], y[kBlock];
+    auto turned = [&](const float(&from)[3][kBlock], Vec3* to) {
+      for (size_t i = 0; i < count; ++i) {
+        x[i] = from[0][i] * c[i] - from[1][i] * s[i];
+        y[i] = from[0][i] * s[i] + from[1][i] * c[i];
+      }
+      for (size_t i = 0; i < count; ++i)
+        to[i] = {x[i], y[i], from[2][i]};
+    };
+    turned(rows.q, out.P.data() + first);
+    turned(rows.dq, out.dPdv.data() + first);
+    turned(rows.n, out.N.data() + first);
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3 p = out.P[first + i];
+      out.dPdu[first + i] = {-p.y * thetamax_, p.x * thetamax_, 0};
     }
   }
 

@@ -146,8 +146,8 @@ struct HitShader::Worker {
   HitGrid hits;
   HitVolumes volumes;
   slvm::Grid lattice{2, 2};
-  std::vector<uint32_t> order, bucket_of; ///< of the hits of a batch
-  std::vector<HitRay> one_grid;           ///< those that are shaded now
+  std::vector<uint32_t> bucket_of; ///< of the hits of a batch
+  std::vector<HitRay> in_order;    ///< these hits as they are shaded
 };
 
 class HitShader::WorkerLease {
@@ -330,7 +330,7 @@ uint32_t HitShader::group_of(uint32_t primitive) {
 
 /// By group, then primitive, then ray; groups and primitives in the order of their first hits here, whatever
 /// their numbers.
-void HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
+std::span<const HitRay> HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
   struct Bucket { // hits of one primitive
     uint32_t group, first = 0, count = 0;
   };
@@ -353,12 +353,7 @@ void HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
       ++buckets[bucket].count;
     }
   }
-  std::vector<uint32_t>& order = worker.order;
-  order.resize(hits.size());
-  if (buckets.size() == 1) {
-    std::iota(order.begin(), order.end(), 0u);
-    return;
-  }
+  if (buckets.size() == 1) return hits;
   std::vector<std::vector<uint32_t>> of_group;
   std::unordered_map<uint32_t, size_t> number_of_group;
   for (uint32_t k = 0; k < buckets.size(); ++k) {
@@ -372,8 +367,11 @@ void HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
       buckets[k].first = place;
       place += buckets[k].count;
     }
-  for (uint32_t i = 0; i < hits.size(); ++i)
-    order[buckets[bucket_of[i]].first++] = i;
+  std::vector<HitRay>& out = worker.in_order;
+  out.resize(hits.size());
+  for (size_t i = 0; i < hits.size(); ++i)
+    out[buckets[bucket_of[i]].first++] = hits[i];
+  return out;
 }
 
 std::vector<HitRay> HitShader::take_list() {
@@ -392,25 +390,22 @@ void HitShader::give_back(std::vector<HitRay> list) {
   lists_.push_back(std::move(list));
 }
 
-void HitShader::shade(std::span<const HitRay> hits, const HitBatch& batch,
+void HitShader::shade(std::span<const HitRay> all, const HitBatch& batch,
                       std::span<const slvm::RayOutput> outputs) {
-  if (hits.empty() || outputs.empty()) return;
+  if (all.empty() || outputs.empty()) return;
   Demand demand(outputs, batch.shades);
   WorkerLease lease(*this, false);
   Worker& worker = *lease;
-  sort(hits, worker);
+  const std::span<const HitRay> hits = sort(all, worker);
   Work work;
   uint32_t last = 0;
   size_t group_end = 0, most = 0;
-  auto at = [&](size_t i) -> const HitRay& { return hits[worker.order[i]]; };
-  auto group = [&](size_t i) { return group_[at(i).place.primitive]; };
+  auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
   auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
-    if (group(first) != last) {
-      last = group(first);
-      work = prepare(scene_.primitives[at(first).place.primitive], batch, outputs, demand);
-    }
     if (first == group_end) {
+      last = group(first);
+      work = prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand);
       while (group_end < hits.size() && group(group_end) == last)
         ++group_end;
       // Grids of about the same size, none of a few points.
@@ -418,15 +413,14 @@ void HitShader::shade(std::span<const HitRay> hits, const HitBatch& batch,
                    grids = std::max<size_t>((count + kHitsAGrid / 2) / kHitsAGrid, 1);
       most = (count + grids - 1) / grids;
     }
-    std::vector<HitRay>& one_grid = worker.one_grid;
-    one_grid.assign(1, at(first));
-    for (end = first + 1; end < group_end && end - first < most; ++end) {
-      const HitRay& hit = at(end);
-      if (work.apart && batch.rays.origin(hit) != batch.rays.origin(one_grid[0])) break;
-      if (demand.attributes && state(hit) != state(one_grid[0])) break;
-      one_grid.push_back(hit);
-    }
-    shade_grid(worker, one_grid, batch, outputs, demand, work,
+    end = std::min(first + most, group_end);
+    const HitRay& one = hits[first];
+    if (work.apart || demand.attributes)
+      for (size_t i = first + 1; i < end; ++i)
+        if ((work.apart && batch.rays.origin(hits[i]) != batch.rays.origin(one)) ||
+            (demand.attributes && state(hits[i]) != state(one)))
+          end = i;
+    shade_grid(worker, hits.subspan(first, end - first), batch, outputs, demand, work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }
 }
@@ -481,6 +475,13 @@ HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& b
                                           [](auto* volume) { return differentiates(*volume); });
   w.apart = w.any_shader([](const slvm::Instance& shader) { return reads(shader, "E", false); });
   w.read.predefined = read_of_grids(w, bound, outputs);
+  if (w.done_beside && w.set.surface && !w.set.displacement) {
+    const slvm::BesideReads& beside = w.set.surface->reads_beside();
+    w.read.predefined_beside = beside.predefined;
+    w.read.of_primitives_beside = [&beside](const std::string& name) {
+      return std::find(beside.parameters.begin(), beside.parameters.end(), name) != beside.parameters.end();
+    };
+  }
   w.read.of_primitives = [outputs, shaders = w](const std::string& name) {
     return shaders.any_shader([&](const slvm::Instance& s) { return reads(s, name, true); }) ||
            std::any_of(outputs.begin(), outputs.end(),

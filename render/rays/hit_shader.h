@@ -64,7 +64,7 @@ private:
   struct Demand;
   struct Work;
   uint32_t group_of(uint32_t primitive);
-  void sort(std::span<const HitRay> hits, Worker& worker);
+  std::span<const HitRay> sort(std::span<const HitRay> hits, Worker& worker);
   void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
                   std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
                   uint64_t id);

@@ -146,18 +146,32 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   if (!outputs.empty()) hits.reserve(batch.count);
   {
     auto tracing = g.tracing();
+    // Where hits lie is looked up for a few at a time: one look-up need not wait for another.
+    struct {
+      size_t ray;
+      float time;
+      RayHit hit;
+    } some[64];
+    size_t waiting = 0;
     for (size_t i = 0; i < batch.count; ++i) {
       if (light && by.too_light(weight[i])) {
         distance[i] = slvm::kNotShot;
         continue;
       }
       RaySegment ray = segment(by, options, batch, i);
-      RayHit hit;
+      RayHit& hit = some[waiting].hit;
       bool found = g.world().nearest(rule, ray, cursors ? &cursors[i] : nullptr, hit);
       distance[i] = found ? hit.distance : kInfinity;
-      if (!found) continue;
-      if (cursors) cursors[i] = {hit.distance, hit.item, hit.face};
-      if (!outputs.empty()) hits.push_back(hit_ray(by, batch, i, ray.time, hit));
+      if (found && cursors) cursors[i] = {hit.distance, hit.item, hit.face};
+      if (found && !outputs.empty()) {
+        some[waiting].ray = i;
+        some[waiting].time = ray.time;
+        ++waiting;
+      }
+      if (waiting < std::size(some) && i + 1 < batch.count) continue;
+      for (const auto& at : std::span(some, waiting))
+        hits.push_back(hit_ray(by, batch, at.ray, at.time, at.hit));
+      waiting = 0;
     }
   }
   rays_ += batch.count;
