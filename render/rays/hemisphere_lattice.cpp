@@ -306,18 +306,22 @@ private:
     return true;
   }
 
-  /// Coons' blend of the four edges at a point inside.
+  /// Coons' blend of the four edges at a point inside: values only, for nothing is interpolated from there.
   HemisphereSample in_cell(const Cell& cell, int i, int j) {
     auto [i0, j0, i1, j1] = cell;
-    float s = static_cast<float>(i - i0) / static_cast<float>(i1 - i0);
-    float t = static_cast<float>(j - j0) / static_cast<float>(j1 - j0);
-    HemisphereSample across = blend(at(j * p_.nu + i0), at(j * p_.nu + i1), s);
-    HemisphereSample down = blend(at(j0 * p_.nu + i), at(j1 * p_.nu + i), t);
-    HemisphereSample corners = blend(blend(at(j0 * p_.nu + i0), at(j0 * p_.nu + i1), s),
-                                     blend(at(j1 * p_.nu + i0), at(j1 * p_.nu + i1), s), t);
-    HemisphereSample out = blend(across, down, 0.5f);
-    for (size_t c = 0; c < kValues; ++c)
-      out.value[c] = across.value[c] + down.value[c] - corners.value[c];
+    const float s = static_cast<float>(i - i0) / static_cast<float>(i1 - i0),
+                t = static_cast<float>(j - j0) / static_cast<float>(j1 - j0);
+    auto values = [&](int row, int column) -> const auto& {
+      return at(row * p_.nu + column).value;
+    };
+    const auto &left = values(j, i0), &right = values(j, i1), &low = values(j0, i), &high = values(j1, i);
+    const auto &a = values(j0, i0), &b = values(j0, i1), &c = values(j1, i0), &d = values(j1, i1);
+    HemisphereSample out;
+    for (size_t k = 0; k < kValues; ++k) {
+      const float across = left[k] + (right[k] - left[k]) * s, down = low[k] + (high[k] - low[k]) * t;
+      const float first = a[k] + (b[k] - a[k]) * s, last = c[k] + (d[k] - c[k]) * s;
+      out.value[k] = across + down - (first + (last - first) * t);
+    }
     return out;
   }
 

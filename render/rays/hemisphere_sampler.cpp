@@ -157,21 +157,24 @@ bool HemisphereSampler::differs(size_t a, size_t b) const {
 
 /// The cells left in blocks that differ from one of the four beside them.
 void HemisphereSampler::more_rays(std::span<const HemispherePoint> points, Rays& rays) {
-  int across = pattern_.sectors / pattern_.sector_block, down = pattern_.rings / pattern_.ring_block;
+  const auto across = static_cast<size_t>(pattern_.sectors / pattern_.sector_block),
+             blocks = static_cast<size_t>(pattern_.blocks());
+  std::vector<uint8_t> wanted(blocks);
   for (size_t i = 0; i < points.size(); ++i) {
     const size_t first = i * static_cast<size_t>(pattern_.cells());
-    const int* chosen = &chosen_[i * static_cast<size_t>(pattern_.blocks())];
-    std::vector<uint8_t> wanted(static_cast<size_t>(pattern_.blocks()));
-    for (int b = 0; b < pattern_.blocks(); ++b) {
-      int row = b / across, column = b % across;
-      auto cell = [&](int block) { return first + static_cast<size_t>(chosen[block]); };
-      auto other = [&](int r, int c) {
-        return r >= 0 && r < down && differs(cell(b), cell(r * across + (c + across) % across));
-      };
-      wanted[static_cast<size_t>(b)] = other(row - 1, column) || other(row + 1, column) ||
-                                       other(row, column - 1) || other(row, column + 1);
+    const int* chosen = &chosen_[i * blocks];
+    std::fill(wanted.begin(), wanted.end(), uint8_t{0});
+    auto compare = [&](size_t a, size_t b) {
+      if ((wanted[a] && wanted[b]) ||
+          !differs(first + static_cast<size_t>(chosen[a]), first + static_cast<size_t>(chosen[b])))
+        return;
+      wanted[a] = wanted[b] = 1;
+    };
+    for (size_t b = 0; b < blocks; ++b) {
+      compare(b, b % across + 1 < across ? b + 1 : b + 1 - across);
+      if (b + across < blocks) compare(b, b + across);
     }
-    aim_.others(points[i], seed_of(points[i]), wanted, {chosen, wanted.size()});
+    aim_.others(points[i], seed_of(points[i]), wanted, {chosen, blocks});
     push_rays(rays, points[i], i);
   }
 }

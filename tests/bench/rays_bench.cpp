@@ -92,9 +92,9 @@ struct Rays {
     }
   }
   size_t size() const { return point.size(); }
-  slvm::RayBatch batch(size_t first) const {
+  slvm::RayBatch batch(size_t first, size_t count) const {
     slvm::RayBatch b;
-    b.count = std::min(kBatch, size() - first);
+    b.count = std::min(count, size() - first);
     for (int c = 0; c < 3; ++c) {
       b.origin[c] = origin[c].data() + first;
       b.direction[c] = direction[c].data() + first;
@@ -185,15 +185,15 @@ private:
 };
 
 void trace(RayScene& s, const Rays& rays, const slvm::ShadingState& state, std::span<slvm::RayOutput> outputs,
-           std::vector<float>& distance) {
+           std::vector<float>& distance, size_t at_a_time = kBatch) {
   slvm::RayOptions options;
   options.kind = slvm::RayKind::kDiffuse;
   options.shades = !outputs.empty();
   std::vector<slvm::RayOutput> here(outputs.begin(), outputs.end());
-  for (size_t first = 0; first < rays.size(); first += kBatch) {
+  for (size_t first = 0; first < rays.size(); first += at_a_time) {
     for (size_t k = 0; k < here.size(); ++k)
       here[k].data = outputs[k].data + first;
-    s.tracer().trace(state, options, rays.batch(first), here, &distance[first], nullptr);
+    s.tracer().trace(state, options, rays.batch(first, at_a_time), here, &distance[first], nullptr);
   }
 }
 
@@ -249,7 +249,8 @@ struct ShadedScene {
   const char* name;
   std::string rib, shader;
   int balls;
-  bool differ = false; ///< not all have the same shader
+  bool differ = false;       ///< not all have the same shader
+  size_t at_a_time = kBatch; ///< rays
 };
 
 /// A picture to look up.
@@ -322,8 +323,8 @@ void compare_with_grid(const ShadedScene& scene, int rounds) {
   };
   std::vector<double> with, without, dense, shading, whole;
   for (int i = 0; i < rounds; ++i) {
-    with.push_back(seconds_of([&] { trace(s, rays, state, {&Ci, 1}, distance); }));
-    without.push_back(seconds_of([&] { trace(s, rays, state, {}, distance); }));
+    with.push_back(seconds_of([&] { trace(s, rays, state, {&Ci, 1}, distance, scene.at_a_time); }));
+    without.push_back(seconds_of([&] { trace(s, rays, state, {}, distance, scene.at_a_time); }));
     dense.push_back(seconds_of(shade_dense));
     shading.push_back((with.back() - without.back()) / dense.back());
     whole.push_back(with.back() / (without.back() + dense.back()));
@@ -360,7 +361,8 @@ void compare_with_grids(int rounds, const std::string& name) {
          1},
         {"three lights", lit, kPlastic, 1},
         {"three lights, 256 balls", lit, kPlastic, 256},
-        {"three lights, 256 balls, 8 shaders", lit, kPlastic, 256, true}})
+        {"three lights, 256 balls, 8 shaders", lit, kPlastic, 256, true},
+        {"the same, 256 rays at a time", lit, kPlastic, 256, true, 256}})
     if (std::string(scene.name).find(name) != std::string::npos) compare_with_grid(scene, rounds);
 }
 
