@@ -68,8 +68,8 @@ private:
   void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
                   std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
                   uint64_t id);
-  Work prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
-               const Demand& demand);
+  void prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
+               const Demand& demand, Work& work);
   const slvm::Instance* narrowed(const slvm::Instance* surface, std::span<const slvm::RayOutput> outputs);
   static std::bitset<slvm::kGlobalCount> read_of_grids(const Work& work, const BoundAttributes& bound,
                                                        std::span<const slvm::RayOutput> outputs);
