@@ -188,20 +188,9 @@ float HemisphereSampler::blocked_by(const HemispherePoint& p, float distance) co
              : 1.0f;
 }
 
-/// f(cells of a block, by number; how many of them were shot: one or all) for all blocks of the point whose
-/// cells begin at `first`.
-template <class F> void HemisphereSampler::for_blocks(size_t first, F&& f) const {
-  const size_t size = by_block_.size() / static_cast<size_t>(pattern_.blocks());
-  for (size_t i = 0; i < by_block_.size(); i += size) {
-    const auto block = std::span(by_block_).subspan(i, size);
-    size_t shot = 0;
-    for (uint32_t cell : block)
-      shot += cells_.shot[first + cell];
-    f(block, shot);
-  }
-}
-
-void HemisphereSampler::finish(const HemispherePoint& p, size_t first, HemisphereSample& out) {
+void HemisphereSampler::finish(const HemispherePoint& p, size_t index, HemisphereSample& out) {
+  const auto blocks = static_cast<size_t>(pattern_.blocks()), size = by_block_.size() / blocks;
+  const size_t first = index * by_block_.size();
   double sum[HemisphereSample::kValues] = {}, nearness = 0;
   const bool coloured = needs_width();
   auto add = [&](size_t cell, float weight) {
@@ -217,16 +206,19 @@ void HemisphereSampler::finish(const HemispherePoint& p, size_t first, Hemispher
     nearness += weight / std::max(std::min(cells_.distance[cell], p.max_distance), 1e-20f);
   };
   const bool fills = interpolated_ && query_.cosine && p.cone <= kPi / 2 + 1e-4f;
-  for_blocks(first, [&](std::span<const uint32_t> block, size_t shot) {
+  for (size_t b = 0; b < blocks; ++b) {
+    const auto block = std::span(by_block_).subspan(b * size, size);
+    const auto chosen = static_cast<uint32_t>(chosen_[index * blocks + b]);
+    if (cells_.shot[first + (block.front() == chosen ? block.back() : block.front())]) {
+      for (uint32_t cell : block)
+        add(first + cell, 1);
+      continue;
+    }
     // Cells that were left out are like the one of their block that was not.
-    const float weight = static_cast<float>(block.size()) / static_cast<float>(shot);
-    size_t seen = 0;
+    add(first + chosen, static_cast<float>(size));
     for (uint32_t cell : block)
-      if (cells_.shot[first + cell]) add(seen = first + cell, weight);
-    if (!fills || shot == block.size()) return;
-    for (uint32_t cell : block)
-      if (!cells_.shot[first + cell]) cells_.copy(seen, first + cell);
-  });
+      if (fills && cell != chosen) cells_.copy(first + chosen, first + cell);
+  }
   const double count = pattern_.cells();
   for (size_t i = 0; i < HemisphereSample::kValues; ++i)
     out.value[i] = static_cast<float>(sum[i] / count);
@@ -236,47 +228,42 @@ void HemisphereSampler::finish(const HemispherePoint& p, size_t first, Hemispher
 
 /// Ward and Heckbert 1992, equations for the rotation and the translation gradient, for means instead of
 /// integrals; turns are about right-handed axes.
-void HemisphereSampler::gradients(const HemispherePoint& p, size_t first, HemisphereSample& out) const {
+void HemisphereSampler::gradients(const HemispherePoint& p, size_t first, HemisphereSample& out) {
   const auto M = static_cast<size_t>(pattern_.rings), N = static_cast<size_t>(pattern_.sectors);
-  float reach = std::sin(std::min(p.cone, kPi / 2));
+  const float reach = std::sin(std::min(p.cone, kPi / 2)), norm = 1 / (kPi * reach * reach);
+  auto sine = [&](float ring) { return reach * std::sqrt(ring / static_cast<float>(M)); };
   Vec3 x, y;
   basis_about(p.N, x, y);
-  auto sine = [&](float ring) { return reach * std::sqrt(ring / static_cast<float>(M)); };
-  struct Ring {
-    float inner, width,
-        turn; ///< of the ring's edge towards the axis; to the other one; by the cell's tangent
-  };
-  std::vector<Ring> rings;
-  rings.reserve(M);
-  for (size_t j = 0; j < M; ++j) {
-    const auto ring = static_cast<float>(j);
-    float s = sine(ring), middle = sine(ring + 0.5f);
-    float tangent = middle / std::sqrt(std::max(1 - middle * middle, 1e-4f));
-    rings.push_back({2 * kPi / static_cast<float>(N) * s * (1 - s * s), sine(ring + 1) - s,
-                     tangent / static_cast<float>(M * N)});
-  }
-  const float norm = 1 / (kPi * reach * reach);
   // For each value its numbers, `stride` apart. Light and map only where they are asked for.
   auto of_value = [&](const float* value, size_t stride, Vec3& move, Vec3& turn) {
+    for (auto& sums : by_sector_)
+      sums.assign(N, 0.0f);
+    float *outwards = by_sector_[0].data(), *aside = by_sector_[1].data(), *tilt = by_sector_[2].data();
+    const float* distance = &cells_.distance[first];
+    auto change = [&](size_t cell, size_t other) {
+      return (value[cell * stride] - value[other * stride]) /
+             std::max(std::min(distance[cell], distance[other]), 1e-6f);
+    };
+    for (size_t j = 0; j < M; ++j) {
+      const auto ring = static_cast<float>(j);
+      const float s = sine(ring), middle = sine(ring + 0.5f), row_width = sine(ring + 1) - s;
+      const float inner = 2 * kPi / static_cast<float>(N) * s * (1 - s * s);
+      const float tangent = middle / std::sqrt(std::max(1 - middle * middle, 1e-4f));
+      const float turned = tangent / static_cast<float>(M * N);
+      const size_t row = j * N;
+      for (size_t k = 0; k < N && j > 0; ++k)
+        outwards[k] += inner * change(row + k, row + k - N);
+      aside[0] += row_width * change(row, row + N - 1);
+      for (size_t k = 1; k < N; ++k)
+        aside[k] += row_width * change(row + k, row + k - 1);
+      for (size_t k = 0; k < N; ++k)
+        tilt[k] += turned * value[(row + k) * stride];
+    }
     for (size_t k = 0; k < N; ++k) {
       const Vec2 edge = around_[2 * k], middle = around_[2 * k + 1];
-      const size_t before = (k + N - 1) % N;
-      float outwards = 0, aside = 0, tilt = 0;
-      auto change = [&](size_t cell, size_t other) {
-        const float by = value[cell * stride] - value[other * stride];
-        if (by == 0) return 0.0f;
-        const float nearest = std::min(cells_.distance[first + cell], cells_.distance[first + other]);
-        return nearest < kInfinity ? by / std::max(nearest, 1e-6f) : 0.0f;
-      };
-      for (size_t j = 0; j < M; ++j) {
-        const size_t cell = j * N + k;
-        if (j > 0) outwards += rings[j].inner * change(cell, cell - N);
-        aside += rings[j].width * change(cell, j * N + before);
-        tilt += rings[j].turn * value[cell * stride];
-      }
       const Vec3 radial = x * middle.x + y * middle.y;
-      move += radial * (norm * outwards) + glm::cross(p.N, x * edge.x + y * edge.y) * (norm * aside);
-      turn += glm::cross(p.N, radial) * tilt;
+      move += radial * (norm * outwards[k]) + glm::cross(p.N, x * edge.x + y * edge.y) * (norm * aside[k]);
+      turn += glm::cross(p.N, radial) * tilt[k];
     }
   };
   of_value(&cells_.blocked[first], 1, out.move[0], out.turn[0]);
@@ -312,7 +299,7 @@ void HemisphereSampler::sample(std::span<const HemispherePoint> points, std::spa
       if (rays.size() > 0) cast(part, rays);
     }
     for (size_t i = 0; i < part.size(); ++i)
-      finish(part[i], i * cells, out[first + i]);
+      finish(part[i], i, out[first + i]);
     first += part.size();
   }
 }

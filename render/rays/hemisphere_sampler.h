@@ -56,9 +56,8 @@ private:
   void cast(std::span<const HemispherePoint> points, Rays& rays);
   void cast_blocked(Rays& rays);
   void look_up_map(Rays& rays);
-  void finish(const HemispherePoint& point, size_t first, HemisphereSample& out);
-  template <class F> void for_blocks(size_t first, F&& f) const;
-  void gradients(const HemispherePoint& point, size_t first, HemisphereSample& out) const;
+  void finish(const HemispherePoint& point, size_t index, HemisphereSample& out);
+  void gradients(const HemispherePoint& point, size_t first, HemisphereSample& out);
   bool differs(size_t a, size_t b) const;
   float blocked_by(const HemispherePoint& point, float distance) const;
   uint64_t seed_of(const HemispherePoint& point) const;
@@ -76,10 +75,11 @@ private:
   /// Whether rays bring anything that is filtered.
   bool needs_width() const { return wants_light_ || wants_map_; }
 
-  Cells cells_;                    ///< of all points being sampled
-  std::vector<int> chosen_;        ///< of each block of each point: the cell that is shot first
-  std::vector<uint32_t> by_block_; ///< cells in the order of their blocks
-  std::vector<Vec2> around_;       ///< cosine and sine at edges and middles of sectors, in turn
+  Cells cells_;                     ///< of all points being sampled
+  std::vector<int> chosen_;         ///< of each block of each point: the cell that is shot first
+  std::vector<uint32_t> by_block_;  ///< cells in the order of their blocks
+  std::vector<Vec2> around_;        ///< cosine and sine at edges and middles of sectors, in turn
+  std::vector<float> by_sector_[3]; ///< sums of gradients
   HemisphereAim aim_;
   std::unique_ptr<Rays> rays_; ///< with its memory
   std::string problem_;
