@@ -88,10 +88,10 @@ void HitGrid::find_runs(const Scene& scene, std::span<const HitRay> hits) {
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
     const HitRay& hit = hits[first];
     const Primitive* p = &scene.primitives[hit.place.primitive];
-    const bool moves = hit.time > 0 && (!p->deformation.empty() || !p->state->motion.empty());
+    const bool moves = !p->deformation.empty() || !p->state->motion.empty();
     for (end = first + 1; end < hits.size(); ++end)
       if (hits[end].place.primitive != hit.place.primitive || (moves && hits[end].time != hit.time)) break;
-    if (moves) p = &moved_.emplace_back(primitive_at(*p, hit.time));
+    if (moves && hit.time > 0) p = &moved_.emplace_back(primitive_at(*p, hit.time));
     runs_.push_back({p, first, end - first, hit.place.displaced});
   }
 }

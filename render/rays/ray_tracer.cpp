@@ -153,26 +153,27 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
       RayHit hit;
     } some[64];
     size_t waiting = 0;
+    auto place_hits = [&] {
+      for (const auto& at : std::span(some, waiting))
+        hits.push_back(hit_ray(by, batch, at.ray, at.time, at.hit));
+      waiting = 0;
+    };
     for (size_t i = 0; i < batch.count; ++i) {
       if (light && by.too_light(weight[i])) {
         distance[i] = slvm::kNotShot;
         continue;
       }
       RaySegment ray = segment(by, options, batch, i);
-      RayHit& hit = some[waiting].hit;
+      RayHit hit;
       bool found = g.world().nearest(rule, ray, cursors ? &cursors[i] : nullptr, hit);
       distance[i] = found ? hit.distance : kInfinity;
-      if (found && cursors) cursors[i] = {hit.distance, hit.item, hit.face};
-      if (found && !outputs.empty()) {
-        some[waiting].ray = i;
-        some[waiting].time = ray.time;
-        ++waiting;
-      }
-      if (waiting < std::size(some) && i + 1 < batch.count) continue;
-      for (const auto& at : std::span(some, waiting))
-        hits.push_back(hit_ray(by, batch, at.ray, at.time, at.hit));
-      waiting = 0;
+      if (!found) continue;
+      if (cursors) cursors[i] = {hit.distance, hit.item, hit.face};
+      if (outputs.empty()) continue;
+      some[waiting++] = {i, ray.time, hit};
+      if (waiting == std::size(some)) place_hits();
     }
+    place_hits();
   }
   rays_ += batch.count;
   g.trim();
