@@ -58,9 +58,9 @@ namespace render {
 
 namespace {
 
-const auto scramble_all = SL_BEST(scramble_all);
-const auto find_cells = SL_BEST(find_cells);
-const auto aim_all = SL_BEST(aim_all);
+const auto kScramble = SL_BEST(scramble_all);
+const auto kFindCells = SL_BEST(find_cells);
+const auto kAim = SL_BEST(aim_all);
 
 using slvm::SampleUse;
 
@@ -117,13 +117,13 @@ void HemisphereAim::draw(const HemispherePoint& point, uint64_t seed, size_t fir
   auto bits_of = [&](SampleUse use) { return sequence_[static_cast<size_t>(use)].data() + first; };
   auto numbers = [&](SampleUse use, const uint32_t* bits, size_t how_many, std::vector<float>& out) {
     out.resize(how_many);
-    scramble_all(bits, how_many, offset.bits[static_cast<size_t>(use)],
+    kScramble(bits, how_many, offset.bits[static_cast<size_t>(use)],
                  slvm::scramble_seed(static_cast<uint32_t>(seed ^ seed >> 32), use), out.data());
   };
   numbers(SampleUse::kRadius, bits_of(SampleUse::kRadius), count, radius_);
   numbers(SampleUse::kTurn, bits_of(SampleUse::kTurn), count, turn_);
   cell.resize(count);
-  find_cells(radius_.data(), turn_.data(), count, pattern_.rings, pattern_.sectors, cell.data());
+  kFindCells(radius_.data(), turn_.data(), count, pattern_.rings, pattern_.sectors, cell.data());
   if (!wanted.empty()) keep_wanted(wanted);
   if (point.base > 0) {
     for (size_t k = 0; k < 2; ++k) {
@@ -192,7 +192,7 @@ void HemisphereAim::finish(const HemispherePoint& point) {
   }
   Vec3 x, y;
   basis_about(point.N, x, y);
-  aim_all(radius_.data(), turn_.data(), count, CosineOfRadius(point.cone, cosine_weighted_), x, y, point.N,
+  kAim(radius_.data(), turn_.data(), count, CosineOfRadius(point.cone, cosine_weighted_), x, y, point.N,
           direction[0].data(), direction[1].data(), direction[2].data());
   for (int c = 0; c < 3; ++c) {
     float* to = origin[c].data();
