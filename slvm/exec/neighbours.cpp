@@ -26,8 +26,11 @@ public:
     // Defaults of parameters are computed at all points.
     std::vector<bool> read(p_.slots.size());
     const uint32_t first_default = p_.sections.size() > 1 ? p_.sections[1] : size();
-    for (uint32_t at = 0; at < size(); at = next(at))
-      if (at < end_ || at >= first_default || (at < last_ && is_derivative(at))) mark_slots(at, read);
+    for (uint32_t at = 0; at < size(); at = next(at)) {
+      const bool runs_beside = at < end_ || at >= first_default;
+      if (runs_beside || (at < last_ && is_derivative(at))) mark_slots(at, read);
+      if (runs_beside) mark_unasked(at, out.reads.predefined);
+    }
     for (size_t i = 0; i < read.size(); ++i) {
       if (!read[i]) continue;
       if (p_.slots[i].parameter)
@@ -126,6 +129,19 @@ private:
   void store_of(uint32_t at, std::vector<uint32_t>& stored) {
     for (const CallOperand& o : operands(at))
       if (o.store) stored.push_back(o.word);
+  }
+
+  /// What is read besides operands: lights may look at anything, questions to the renderer at the ray.
+  void mark_unasked(uint32_t at, std::bitset<kGlobalCount>& read) {
+    if (!is_call(at)) {
+      if (static_cast<Opcode>(instruction_opcode(p_.code[at])) == Opcode::k_illuminance) read.set();
+      return;
+    }
+    const ShadeopInfo& info = p_.plugins.info(called(at));
+    if (info.flags & kLights) read.set();
+    if (info.kind == ShadeopKind::kKernel || is_derivative(at) || stores_uniform_only(at)) return;
+    for (Global g : {Global::kI, Global::kN, Global::kNg})
+      read.set(static_cast<size_t>(g));
   }
 
   void mark_slots(uint32_t at, std::vector<bool>& read) {

@@ -52,6 +52,15 @@ TEST(Instance, SaysWhatItsDerivativesDependOn) {
   EXPECT_EQ(beside.parameters, std::vector<std::string>{"near"});
 }
 
+TEST(Instance, DerivativesOfLightDependOnAllThatLightsRead) {
+  ir::Sketch s;
+  ir::ValueId light =
+      s.b.call("comp", "float(color c, float i)", {s.b.call("ambient", "color()", {}), s.number(0)});
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.b.call("Du", "float(float x)", {light})}));
+  auto instance = bind(ir::compile(s.finish()));
+  EXPECT_TRUE(instance->reads_beside().predefined.all());
+}
+
 TEST(Instance, WithoutDerivativesReadsNothingBeside) {
   auto instance = bind(ir::compile(ir::arithmetic()));
   EXPECT_TRUE(instance->reads_beside().predefined.none());
