@@ -44,15 +44,20 @@ float* Grid::allocate(size_t planes, size_t pitch) {
 }
 
 float* Grid::varying(Global g) {
+  const Planes before = variable(g);
+  if (before.data && before.step) return before.data;
+  float* data = to_fill(g);
+  for (size_t i = 0; i < static_cast<size_t>(components(variable(g).type)); ++i)
+    std::fill_n(data + i * pitch_, pitch_, before.data ? before.data[i * before.pitch] : 0.0f);
+  return data;
+}
+
+float* Grid::to_fill(Global g) {
   Planes& p = globals_[static_cast<size_t>(g)];
   if (p.data && p.step) return p.data;
-  Type type = global_info(g).type;
-  auto count = static_cast<size_t>(components(type));
-  float* data = allocate(count, pitch_);
-  for (size_t i = 0; i < count; ++i)
-    std::fill_n(data + i * pitch_, pitch_, p.data ? p.data[i * p.pitch] : 0.0f);
-  p = {data, pitch_, 1, type, 0};
-  return data;
+  const Type type = global_info(g).type;
+  p = {allocate(static_cast<size_t>(components(type)), pitch_), pitch_, 1, type, 0};
+  return p.data;
 }
 
 void Grid::set_uniform(Global g, std::span<const float> value) {

@@ -67,6 +67,8 @@ public:
 
   /// Makes `g` varying, if it is not, and returns its first plane to be filled or read.
   float* varying(Global g);
+  /// The same for who stores to all points: they hold anything before.
+  float* to_fill(Global g);
   /// Makes `g` uniform with this value (components() floats). Uniform values of varying variables cost
   /// nothing.
   void set_uniform(Global g, std::span<const float> value);
@@ -94,8 +96,9 @@ public:
   /// along u, one along v.
   const float* footprint[4] = {};
 
-  /// Of hits with neighbours: nobody reads the neighbours' results, so that a shader leaves them out behind
-  /// its last derivative; neither lights nor what runs after it may have derivatives of their own.
+  /// Of hits with neighbours: nobody reads the neighbours' results, so that a shader leaves them out where no
+  /// derivative looks at them any more, and needs no more of them than Instance::reads_beside() says; neither
+  /// lights nor what runs after it may have derivatives of their own.
   bool neighbours_end = false;
 
   /// What rayinfo() tells.

@@ -5,6 +5,7 @@
 #include "slvm/exec/bind.h"
 #include "slvm/exec/bound.h"
 #include "slvm/exec/grid_ops.h"
+#include "slvm/exec/neighbours.h"
 #include "slvm/exec/plugin_host.h"
 #include "slvm/format/decode.h"
 #include "slvm/format/slo.h"
@@ -123,32 +124,6 @@ void find_strip_operands(Instance::Bound& bound, const Program& program) {
   }
 }
 
-// Behind the last call that looks at neighbouring points, or may, and all regions it is in: a loop comes back
-// to it.
-uint32_t find_last_derivative(const Program& program) {
-  uint32_t last = 0;
-  int depth = 0;
-  bool pending = false;
-  for (uint32_t at = program.sections[0];;) {
-    const uint16_t opcode = instruction_opcode(program.code[at]);
-    const uint32_t next = at + 1 + instruction_words(program.code[at]);
-    if (opcode >= kFirstShadeop) {
-      const ShadeopId id = program.imports[opcode - kFirstShadeop];
-      pending |= program.plugins.find(id) || (program.plugins.info(id).flags & kDerivative) != 0;
-    } else {
-      if (static_cast<Opcode>(opcode) == Opcode::k_end) return last;
-      const uint8_t flags = opcode_info(static_cast<Opcode>(opcode)).flags;
-      depth += (flags & kOpen) != 0;
-      depth -= (flags & kClose) != 0;
-    }
-    if (pending && depth == 0) {
-      last = next;
-      pending = false;
-    }
-    at = next;
-  }
-}
-
 // Facts of the code that a run asks for, and the functions it calls. The error names what this build cannot
 // serve.
 std::string bind_code(Instance::Bound& bound, const Program& program, const KernelTable& kernels,
@@ -166,7 +141,6 @@ std::string bind_code(Instance::Bound& bound, const Program& program, const Kern
     emitters += op == Opcode::k_illuminate || op == Opcode::k_solar;
     loops |= op == Opcode::k_loop; // a block may then run several times
   }
-  bound.last_derivative = find_last_derivative(program);
   bound.emits = emitters > 0;
   bound.emits_once = emitters == 1 && !loops;
   for (size_t i = 0; i < program.imports.size(); ++i) {
@@ -262,6 +236,9 @@ Result<std::unique_ptr<Instance>> Machine::make(const Making& making) const {
   if (std::string error = bind_code(bound, program, *kernels_, *plugins_, options_.zero_for_unserved);
       !error.empty())
     return Error{error};
+  NeighbourUse use = find_neighbour_use(program);
+  bound.neighbours_end = use.end;
+  instance->reads_beside_ = std::move(use.reads);
   bind_constants(bound, program, strings_);
   bind_params(bound, program, *values, strings_);
   bind_variables(bound, program);

@@ -15,6 +15,7 @@
 #include "slvm/support/string_pool.h"
 
 #include <atomic>
+#include <bitset>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -82,6 +83,12 @@ struct InstanceOptions {
   std::vector<std::string> may_vary = {};
 };
 
+/// What a shader reads at points beside others: all that its derivatives depend on.
+struct BesideReads {
+  std::bitset<kGlobalCount> predefined;
+  std::vector<std::string> parameters; ///< which primitive variables may stand for
+};
+
 /// A shader with parameter values: what a primitive, or the list of lights, refers to. Immutable.
 class Instance {
 public:
@@ -93,6 +100,8 @@ public:
   const Program& program() const { return specialised_ ? *specialised_ : shader_->program(); }
   /// For lights: the names in __category, in order.
   std::span<const std::string> categories() const { return categories_; }
+
+  const BesideReads& reads_beside() const { return reads_beside_; }
 
   /// Differs between all instances of one machine.
   uint64_t id() const { return id_; }
@@ -108,6 +117,7 @@ private:
   std::unique_ptr<const Program> specialised_;
   Matrix4 shader_to_current_, current_to_shader_;
   std::vector<std::string> categories_;
+  BesideReads reads_beside_;
   std::unique_ptr<Bound> bound_;
 };
 

@@ -330,7 +330,8 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
   slvm::Grid& grid = worker.grid;
   std::span<const Primitive> pieces = batch.primitives.subspan(task.primitive, task.pieces);
   const Attributes& a = primitive.attributes();
-  ReadVariables read{worker.shader->reads(primitive) | shown_, {}};
+  ReadVariables read;
+  read.predefined = worker.shader->reads(primitive) | shown_;
   if (a.sides == 1) read.predefined.set(static_cast<size_t>(slvm::Global::kNg)); // for faces_away()
   dice(pieces, task, id, context, read, grid);
   auto started = std::chrono::steady_clock::now();

@@ -20,8 +20,9 @@ struct Triple {
   Vec3 get(size_t k) const { return {x[k], y[k], z[k]}; }
 };
 
+/// A variable of which all points that count are stored to.
 Triple triple(slvm::Grid& grid, Global g) {
-  float* x = grid.varying(g);
+  float* x = grid.to_fill(g);
   return {x, x + grid.pitch(), x + 2 * grid.pitch()};
 }
 
@@ -97,6 +98,7 @@ std::vector<float> parameters(float from, float to, int n) {
   return out;
 }
 
+/// All but geometry.
 class Dicer {
 public:
   Dicer(std::span<const SurfacePoints> parts, const DiceContext& context, const ReadVariables& read,
@@ -104,10 +106,9 @@ public:
       : parts_(parts), first_(*parts.front().primitive), attributes_(first_.attributes()), context_(context),
         read_(read), grid_(grid) {}
 
-  void run(const SurfaceLattice& lattice) {
+  void run() {
     grid_.object_to_current = first_.state->object_to_camera;
     grid_.user = &first_;
-    set_geometry(lattice);
     set_uniforms();
     if (read_.has(Global::ku) || read_.has(Global::kv) || read_.has(Global::ks) || read_.has(Global::kt))
       set_parameters();
@@ -117,14 +118,13 @@ public:
   }
 
 private:
-  void set_geometry(const SurfaceLattice& lattice);
   void set_uniforms();
   void set_parameters();
   void set_colours();
   void set_primvar(size_t index);
   void set_st(size_t index);
-  template <class F> void each_part(size_t index, F&& f) const;
-  void fill(size_t index, float* planes);
+  template <class F> void each_part(size_t index, bool beside, F&& f) const;
+  void fill(size_t index, bool beside, float* planes);
   void to_camera(const PrimitiveState& state, slvm::Type type, float* planes, size_t count,
                  size_t points) const;
 
@@ -135,39 +135,6 @@ private:
   const ReadVariables& read_;
   slvm::Grid& grid_;
 };
-
-void Dicer::set_geometry(const SurfaceLattice& lattice) {
-  grid_.flip_normals = attributes_.flips_normals(first_.state->mirrored);
-  Triple P = triple(grid_, Global::kP), N = triple(grid_, Global::kN);
-  for (const SurfacePoints& part : parts_) {
-    const Primitive& primitive = *part.primitive;
-    const Matrix4 m = primitive.state->object_to_camera, inverse = primitive.state->camera_to_object;
-    const size_t first = part.first, count = part.at.size();
-    transform_points(m, lattice.P, first, count, P);
-    auto tangent = [&](Global g, const Vec3Planes& from, float width) {
-      if (!read_.has(g)) return;
-      const Matrix4 by = scaled(m, 1 / width);
-      map_all(of_vectors(by), from, first, count, triple(grid_, g));
-    };
-    tangent(Global::kdPdu, lattice.dPdu, primitive.uv.u1 - primitive.uv.u0);
-    tangent(Global::kdPdv, lattice.dPdv, primitive.uv.v1 - primitive.uv.v0);
-    // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
-    // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
-    const Matrix4 n = scaled(inverse, grid_.flip_normals == primitive.state->mirrored ? 1.0f : -1.0f);
-    map_all(of_normals(n), lattice.N, first, count, N);
-  }
-  const size_t points = grid_.points();
-  if (read_.has(Global::kI)) {
-    Triple I = triple(grid_, Global::kI);
-    for (size_t k = 0; k < points; ++k)
-      I.set(k, context_.camera->incident(P.get(k)));
-  }
-  if (!read_.has(Global::kNg)) return;
-  Triple Ng = triple(grid_, Global::kNg);
-  std::copy_n(N.x, points, Ng.x);
-  std::copy_n(N.y, points, Ng.y);
-  std::copy_n(N.z, points, Ng.z);
-}
 
 void Dicer::set_uniforms() {
   auto set = [&](Global g, std::initializer_list<float> value) {
@@ -181,10 +148,10 @@ void Dicer::set_uniforms() {
 }
 
 void Dicer::set_parameters() {
-  float* u = grid_.varying(Global::ku);
-  float* v = grid_.varying(Global::kv);
-  float* s = grid_.varying(Global::ks);
-  float* t = grid_.varying(Global::kt);
+  float* __restrict u = grid_.to_fill(Global::ku);
+  float* __restrict v = grid_.to_fill(Global::kv);
+  float* __restrict s = grid_.to_fill(Global::ks);
+  float* __restrict t = grid_.to_fill(Global::kt);
   const auto& tc = attributes_.texture_coordinates;
   for (const SurfacePoints& part : parts_) {
     const UvRect& whole = part.primitive->uv;
@@ -196,7 +163,7 @@ void Dicer::set_parameters() {
   // Pieces of odd shapes bring their parameters along; s and t follow these.
   for (size_t i = 0; i < first_.vars.size(); ++i)
     if (Global g = replaced_variable(first_.vars[i]); g == Global::ku || g == Global::kv)
-      fill(i, g == Global::ku ? u : v);
+      fill(i, true, g == Global::ku ? u : v);
   for (size_t k = 0; k < grid_.points(); ++k) {
     float a = u[k], b = v[k];
     s[k] = (tc[0] * (1 - a) + tc[2] * a) * (1 - b) + (tc[4] * (1 - a) + tc[6] * a) * b;
@@ -244,18 +211,20 @@ void Dicer::to_camera(const PrimitiveState& state, slvm::Type type, float* plane
 }
 
 /// Calls f(variable, part) for all parts: variables are made once for parts of the same primitive.
-template <class F> void Dicer::each_part(size_t index, F&& f) const {
+/// Not for neighbours of hits that are not `beside`.
+template <class F> void Dicer::each_part(size_t index, bool beside, F&& f) const {
   const Primitive* of = nullptr;
   PatchVar var;
   for (const SurfacePoints& part : parts_) {
+    if (part.beside && !beside) continue;
     if (part.primitive != of) var = (of = part.primitive)->vars[index];
     f(static_cast<const PatchVar&>(var), part);
   }
 }
 
 /// The values of a variable at all points.
-void Dicer::fill(size_t index, float* planes) {
-  each_part(index, [&](const PatchVar& var, const SurfacePoints& part) {
+void Dicer::fill(size_t index, bool beside, float* planes) {
+  each_part(index, beside, [&](const PatchVar& var, const SurfacePoints& part) {
     interpolate(var, part.at, planes + part.first, grid_.pitch());
     to_camera(*part.primitive->state, var.type, planes + part.first, var.elements ? var.elements : 1,
               part.at.size());
@@ -263,9 +232,9 @@ void Dicer::fill(size_t index, float* planes) {
 }
 
 void Dicer::set_st(size_t index) {
-  float* planes[2] = {grid_.varying(Global::ks), grid_.varying(Global::kt)};
+  float* planes[2] = {grid_.to_fill(Global::ks), grid_.to_fill(Global::kt)};
   std::vector<float> both;
-  each_part(index, [&](const PatchVar& var, const SurfacePoints& part) {
+  each_part(index, true, [&](const PatchVar& var, const SurfacePoints& part) {
     size_t points = part.at.size();
     both.resize(2 * points);
     interpolate(var, part.at, both.data(), points);
@@ -278,7 +247,7 @@ void Dicer::set_primvar(size_t index) {
   const PatchVar& var = first_.vars[index];
   if (is_st(var)) return read_.has(Global::ks) || read_.has(Global::kt) ? set_st(index) : void();
   if (Global g = replaced_variable(var); g != Global::kCount)
-    return read_.has(g) ? fill(index, grid_.varying(g)) : void();
+    return read_.has(g) ? fill(index, read_.has_beside(g), grid_.to_fill(g)) : void();
   if (read_.of_primitives && !read_.of_primitives(var.name)) return;
   // Constant values cost nothing as uniforms; geometric ones and matrices need the transformation below.
   bool plain = var.type == slvm::Type::kFloat || var.type == slvm::Type::kColor ||
@@ -289,7 +258,8 @@ void Dicer::set_primvar(size_t index) {
     return;
   }
   if (var.type == slvm::Type::kString) return; // strings do not interpolate; the interpreter has said so
-  fill(index, grid_.add_varying_primvar(var.name, var.type, var.elements));
+  const bool beside = !read_.of_primitives_beside || read_.of_primitives_beside(var.name);
+  fill(index, beside, grid_.add_varying_primvar(var.name, var.type, var.elements));
 }
 
 /// du or dv, from the part of the shaders' u and v that each piece is: varying only where pieces differ.
@@ -343,16 +313,51 @@ void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, 
     else
       lattice.append(piece_lattice);
   }
-  dice_points(parts, lattice, context, read, grid);
+  dice_geometry(parts, lattice, read, grid);
+  if (read.has(Global::kI)) {
+    Triple P = triple(grid, Global::kP), I = triple(grid, Global::kI);
+    for (size_t k = 0; k < grid.points(); ++k)
+      I.set(k, context.camera->incident(P.get(k)));
+  }
+  dice_variables(parts, context, read, grid);
   float du = (u.back() - u.front()) / static_cast<float>(u.size() - 1);
   float dv = (v.back() - v.front()) / static_cast<float>(v.size() - 1);
   set_steps(grid, Global::kdu, pieces, [&](const UvRect& whole) { return (whole.u1 - whole.u0) * du; });
   set_steps(grid, Global::kdv, pieces, [&](const UvRect& whole) { return (whole.v1 - whole.v0) * dv; });
 }
 
-void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
-                 const DiceContext& context, const ReadVariables& read, slvm::Grid& grid) {
-  Dicer(parts, context, read, grid).run(lattice);
+void dice_geometry(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
+                   const ReadVariables& read, slvm::Grid& grid) {
+  const Primitive& alike = *parts.front().primitive;
+  grid.flip_normals = alike.attributes().flips_normals(alike.state->mirrored);
+  Triple P = triple(grid, Global::kP), N = triple(grid, Global::kN);
+  for (const SurfacePoints& part : parts) {
+    const Primitive& primitive = *part.primitive;
+    const Matrix4 m = primitive.state->object_to_camera, inverse = primitive.state->camera_to_object;
+    const size_t first = part.first, count = part.at.size();
+    transform_points(m, lattice.P, first, count, P);
+    auto tangent = [&](Global g, const Vec3Planes& from, float width) {
+      if (!read.has(g)) return;
+      const Matrix4 by = scaled(m, 1 / width);
+      map_all(of_vectors(by), from, first, count, triple(grid, g));
+    };
+    tangent(Global::kdPdu, lattice.dPdu, primitive.uv.u1 - primitive.uv.u0);
+    tangent(Global::kdPdv, lattice.dPdv, primitive.uv.v1 - primitive.uv.v0);
+    // N is the transformed object-space normal, which points to the object's outside whatever the handedness;
+    // what the orientation asks for is the side that dPdu x dPdv in camera space, flipped or not, is on.
+    const Matrix4 n = scaled(inverse, grid.flip_normals == primitive.state->mirrored ? 1.0f : -1.0f);
+    map_all(of_normals(n), lattice.N, first, count, N);
+    if (!read.has(Global::kNg)) continue;
+    const Triple Ng = triple(grid, Global::kNg);
+    std::copy_n(N.x + first, count, Ng.x + first);
+    std::copy_n(N.y + first, count, Ng.y + first);
+    std::copy_n(N.z + first, count, Ng.z + first);
+  }
+}
+
+void dice_variables(std::span<const SurfacePoints> parts, const DiceContext& context,
+                    const ReadVariables& read, slvm::Grid& grid) {
+  Dicer(parts, context, read, grid).run();
 }
 
 void renew_geometry(const Camera& camera, slvm::Grid& grid) {

@@ -26,14 +26,22 @@ struct DiceContext {
 struct SurfacePoints {
   const Primitive* primitive = nullptr;
   UvPoints at;
-  size_t first = 0; ///< number of the first of them in the grid
+  size_t first = 0;    ///< number of the first of them in the grid
+  bool beside = false; ///< neighbours of hits (slvm::Lattice::kHits)
 };
 
 /// What somebody reads of a grid; by default everything.
 struct ReadVariables {
-  std::bitset<slvm::kGlobalCount> predefined = std::bitset<slvm::kGlobalCount>().set();
-  std::function<bool(const std::string& name)> of_primitives; ///< empty: all
+  using Predefined = std::bitset<slvm::kGlobalCount>;
+  using OfPrimitives = std::function<bool(const std::string& name)>;
+  Predefined predefined = Predefined().set();
+  OfPrimitives of_primitives; ///< empty: all
+  /// Of these also at neighbours of hits.
+  Predefined predefined_beside = Predefined().set();
+  OfPrimitives of_primitives_beside; ///< empty: all
+
   bool has(slvm::Global g) const { return predefined[static_cast<size_t>(g)]; }
+  bool has_beside(slvm::Global g) const { return predefined_beside[static_cast<size_t>(g)]; }
 };
 
 /// Fills `grid` (its old content is dropped) with the lattice of `task`, whose pieces these are. `id` becomes
@@ -41,15 +49,19 @@ struct ReadVariables {
 void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
           const ReadVariables& read, slvm::Grid& grid);
 
-/// Fills a grid with the points of `parts`, which together are all points it has; `lattice` is what the
-/// geometry of the primitives gives at each, by their numbers in the grid. du and dv are left to the caller.
-/// The primitives are alike in all that is the same for a grid: texture coordinates, the side their normals
-/// are on, variables of the same names and kinds; constant ones have the same values, unless they replace
-/// predefined ones. "object" is the space of the first one, and attribute() tells of it. Variables that
-/// nobody reads are left out: those of primitives, I, tangents, the geometric normal, and u, v, s and t
-/// together.
-void dice_points(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
-                 const DiceContext& context, const ReadVariables& read, slvm::Grid& grid);
+/// Fills P, N, tangents and the geometric normal of some of a grid's points; `lattice` is what the geometry
+/// of the primitives gives at each, by their numbers in the grid. The last three are left out where nobody
+/// reads them. The primitives are alike in all that is the same for a grid: texture coordinates, the side
+/// their normals are on, variables of the same names and kinds; constant ones have the same values, unless
+/// they replace predefined ones.
+void dice_geometry(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
+                   const ReadVariables& read, slvm::Grid& grid);
+
+/// Fills the rest, but for I, du and dv; `parts` are together all points of the grid. "object" is the space
+/// of the first one, and attribute() tells of it. Variables that nobody reads are left out: those of
+/// primitives, and u, v, s and t together.
+void dice_variables(std::span<const SurfacePoints> parts, const DiceContext& context,
+                    const ReadVariables& read, slvm::Grid& grid);
 
 /// The predefined variable that a primitive variable replaces, or kCount. "st" is none: it replaces two.
 slvm::Global replaced_variable(const PatchVar& var);

@@ -124,8 +124,7 @@ public:
         const size_t count = block(k, width);
         turn(at.u.data() + k, count, columns);
         find_profile(at.v.data() + k, count, rows);
-        for (size_t i = 0; i < count; ++i)
-          set(columns, i, 1, rows, i, k + i, out);
+        set_pairs(columns, rows, count, k, out);
       }
       return;
     }
@@ -134,7 +133,7 @@ public:
       for (size_t u = 0; u < width; u += kBlock) {
         turn(at.u.data() + u, block(u, width), columns);
         for (size_t j = 0; j < block(v, height); ++j)
-          set(columns, 0, block(u, width), rows, j, (v + j) * width + u, out);
+          set_row(columns, block(u, width), rows, j, (v + j) * width + u, out);
       }
     }
   }
@@ -175,26 +174,52 @@ private:
       out.n[1][i] = y * scale;
       out.n[2][i] = z * scale;
     }
-    for (size_t i = 0; i < count; ++i) {
+    auto is_on_axis = [&](size_t i) {
       const float off = out.q[0][i] * out.q[0][i] + out.q[1][i] * out.q[1][i];
-      const Vec3 dq(out.dq[0][i], out.dq[1][i], out.dq[2][i]);
-      if (off >= kOnAxis * glm::dot(dq, dq) && length[i] > 0) continue;
-      const Vec3 n = normal_at_axis(dq, v[i]);
+      const float x = out.dq[0][i], y = out.dq[1][i], z = out.dq[2][i];
+      return !(off >= kOnAxis * (x * x + y * y + z * z)) | !(length[i] > 0);
+    };
+    int on_axis = 0;
+    for (size_t i = 0; i < count; ++i)
+      on_axis += is_on_axis(i);
+    for (size_t i = 0; i < count && on_axis > 0; ++i) {
+      if (!is_on_axis(i)) continue;
+      const Vec3 n = normal_at_axis({out.dq[0][i], out.dq[1][i], out.dq[2][i]}, v[i]);
       for (int c = 0; c < 3; ++c)
         out.n[c][i] = n[c];
     }
   }
 
-  /// `count` points from k on, of as many columns from i on in a row.
-  void set(const Columns& columns, size_t i, size_t count, const Rows& rows, size_t j, size_t k,
-           SurfaceLattice& out) const {
-    const float *sine = columns.sine + i, *cosine = columns.cosine + i;
+  /// Point first + i of `out` is that of column i and row i.
+  void set_pairs(const Columns& columns, const Rows& rows, size_t count, size_t first,
+                 SurfaceLattice& out) const {
+    const float *sine = columns.sine, *cosine = columns.cosine;
+    auto turn_all = [&](const float(&from)[3][kBlock], Vec3Planes& to) {
+      float *x = to.plane(0) + first, *y = to.plane(1) + first;
+      for (size_t i = 0; i < count; ++i)
+        x[i] = from[0][i] * cosine[i] - from[1][i] * sine[i];
+      for (size_t i = 0; i < count; ++i)
+        y[i] = from[0][i] * sine[i] + from[1][i] * cosine[i];
+      std::copy_n(from[2], count, to.plane(2) + first);
+    };
+    turn_all(rows.q, out.P);
+    turn_all(rows.dq, out.dPdv);
+    turn_all(rows.n, out.N);
+    const float *x = out.P.plane(0) + first, *y = out.P.plane(1) + first;
+    for (size_t i = 0; i < count; ++i)
+      out.dPdu.set(first + i, {-y[i] * thetamax_, x[i] * thetamax_, 0});
+  }
+
+  /// All columns with row j; `out` from k on.
+  void set_row(const Columns& columns, size_t count, const Rows& rows, size_t j, size_t k,
+               SurfaceLattice& out) const {
+    const float *sine = columns.sine, *cosine = columns.cosine;
     auto turn_all = [&](float x, float y, float z, Vec3Planes& to) {
       float *to_x = to.plane(0) + k, *to_y = to.plane(1) + k;
-      for (size_t n = 0; n < count; ++n)
-        to_x[n] = x * cosine[n] - y * sine[n];
-      for (size_t n = 0; n < count; ++n)
-        to_y[n] = x * sine[n] + y * cosine[n];
+      for (size_t i = 0; i < count; ++i)
+        to_x[i] = x * cosine[i] - y * sine[i];
+      for (size_t i = 0; i < count; ++i)
+        to_y[i] = x * sine[i] + y * cosine[i];
       std::fill_n(to.plane(2) + k, count, z);
     };
     turn_all(rows.q[0][j], rows.q[1][j], rows.q[2][j], out.P);

@@ -12,6 +12,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -61,11 +62,49 @@ void occluded(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRay
 }
 #endif
 
+/// How far the third corner of a face is from where a parallelogram would have it, in its first and last
+/// sides. Two bytes, for these are read at random; where they are not enough there are none.
+class Skew {
+public:
+  Skew(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+    const Vec3 x = b - a, y = d - a, off = c - b - y;
+    const float xx = glm::dot(x, x), xy = glm::dot(x, y), yy = glm::dot(y, y);
+    const float dx = glm::dot(off, x), dy = glm::dot(off, y), determinant = xx * yy - xy * xy;
+    const float s = (dx * yy - dy * xy) / determinant * kSteps,
+                t = (dy * xx - dx * xy) / determinant * kSteps;
+    if (!(std::abs(s) < 127 && std::abs(t) < 127)) return;
+    along_first_ = static_cast<int8_t>(std::lround(s));
+    along_last_ = static_cast<int8_t>(std::lround(t));
+  }
+  float along_first() const { return along_first_ / kSteps; }
+  float along_last() const { return along_last_ / kSteps; }
+
+private:
+  static constexpr float kSteps = 64;
+  int8_t along_first_ = 0, along_last_ = 0;
+};
+
 class EmbreeFaces final : public FaceScene {
 public:
-  explicit EmbreeFaces(RTCScene s) : scene(s) {}
+  EmbreeFaces(RTCScene s, const QuadMesh& mesh) : scene(s) {
+    skews_.reserve(mesh.faces.size());
+    for (const auto& [a, b, c, d] : mesh.faces)
+      skews_.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
+  }
   ~EmbreeFaces() override { rtcReleaseScene(scene); }
   RTCScene scene;
+
+  /// One step of Newton's method.
+  Vec2 on_patch(const RayHit& hit) const override {
+    const float s = skews_[hit.face].along_first(), t = skews_[hit.face].along_last();
+    // u v in the triangle at the first corner, (1 - u) (1 - v) in the other one, where u + v > 1.
+    const float off = hit.u * hit.v - std::max(hit.u + hit.v - 1, 0.0f);
+    const float by = off / std::max(1 + hit.v * s + hit.u * t, 0.1f);
+    return {hit.u - by * s, hit.v - by * t};
+  }
+
+private:
+  std::vector<Skew> skews_;
 };
 
 RTCScene faces_of(const FaceScene* faces) {
@@ -128,7 +167,7 @@ std::unique_ptr<const FaceScene> RayDevice::build(const QuadMesh& mesh) const {
   rtcAttachGeometry(scene, g);
   rtcReleaseGeometry(g);
   commit(scene);
-  return std::make_unique<EmbreeFaces>(scene);
+  return std::make_unique<EmbreeFaces>(scene, mesh);
 }
 
 struct RayWorld::Impl {

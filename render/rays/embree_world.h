@@ -26,6 +26,9 @@ struct QuadMesh {
 class FaceScene {
 public:
   virtual ~FaceScene() = default;
+  /// A face is two triangles to rays, and u and v of a hit are linear in each: here as they are on the
+  /// bilinear patch through the four corners, about; they may be a little outside it.
+  virtual Vec2 on_patch(const struct RayHit& hit) const = 0;
 };
 
 class RayDevice {

@@ -1,16 +1,66 @@
-// Loops over the rays of a point, component by component, which compilers vectorise.
+// Loops over the rays of a point, component by component, which compilers vectorise for each target.
 #include "render/rays/hemisphere_aim.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/rays/hemisphere_aim.cpp"
+#include <hwy/foreach_target.h>
 
 #include "render/hider/random.h"
 #include "slvm/support/sample_sequence.h"
 #include "slvm/support/turn.h"
+#include "slvm/wide/targets.h"
+
+#include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
 
+HWY_BEFORE_NAMESPACE();
+namespace render {
+namespace HWY_NAMESPACE {
+
+/// Numbers of samples of the sequence, all scrambled alike.
+void scramble_all(const uint32_t* bits, size_t count, uint32_t shift, uint32_t scrambling,
+                  float* __restrict out) {
+  for (size_t i = 0; i < count; ++i)
+    out[i] = slvm::scrambled(bits[i] ^ shift, scrambling);
+}
+
+/// The cells that places in the disk are in.
+void find_cells(const float* radius, const float* turn, size_t count, int rings, int sectors,
+                int* __restrict out) {
+  const auto r = static_cast<float>(rings), s = static_cast<float>(sectors);
+  for (size_t i = 0; i < count; ++i)
+    out[i] = static_cast<int>(radius[i] * r) * sectors + static_cast<int>(turn[i] * s);
+}
+
+/// Directions about n of places in the disk.
+void aim_all(const float* radius, const float* turn, size_t count, const CosineOfRadius& cosine_of, Vec3 x,
+             Vec3 y, Vec3 n, float* __restrict dx, float* __restrict dy, float* __restrict dz) {
+  for (size_t i = 0; i < count; ++i) {
+    const float cosine = cosine_of(radius[i]), squared = 1 - cosine * cosine,
+                sine = std::sqrt(squared > 0 ? squared : 0.0f);
+    float up, across;
+    slvm::sine_and_cosine(turn[i], up, across);
+    const float a = sine * across, b = sine * up;
+    dx[i] = x.x * a + y.x * b + n.x * cosine;
+    dy[i] = x.y * a + y.y * b + n.y * cosine;
+    dz[i] = x.z * a + y.z * b + n.z * cosine;
+  }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace render {
 
 namespace {
+
+const auto kScramble = SL_BEST(scramble_all);
+const auto kFindCells = SL_BEST(find_cells);
+const auto kAim = SL_BEST(aim_all);
 
 using slvm::SampleUse;
 
@@ -64,32 +114,28 @@ void HemisphereAim::draw(const HemispherePoint& point, uint64_t seed, size_t fir
                          std::span<const uint8_t> wanted) {
   const size_t count = last - first;
   const slvm::SobolSample offset(point.pass * static_cast<uint32_t>(pattern_.cells()));
-  auto numbers = [&](SampleUse use, size_t how_many, std::vector<float>& out, auto&& bits_of) {
-    const auto u = static_cast<size_t>(use);
-    const uint32_t scrambling = slvm::scramble_seed(static_cast<uint32_t>(seed ^ seed >> 32), use),
-                   shift = offset.bits[u];
-    const uint32_t* bits = sequence_[u].data() + first;
+  auto bits_of = [&](SampleUse use) { return sequence_[static_cast<size_t>(use)].data() + first; };
+  auto numbers = [&](SampleUse use, const uint32_t* bits, size_t how_many, std::vector<float>& out) {
     out.resize(how_many);
-    float* to = out.data();
-    for (size_t i = 0; i < how_many; ++i)
-      to[i] = slvm::scrambled(bits_of(bits, i) ^ shift, scrambling);
+    kScramble(bits, how_many, offset.bits[static_cast<size_t>(use)],
+                 slvm::scramble_seed(static_cast<uint32_t>(seed ^ seed >> 32), use), out.data());
   };
-  auto in_order = [](const uint32_t* bits, size_t i) { return bits[i]; };
-  numbers(SampleUse::kRadius, count, radius_, in_order);
-  numbers(SampleUse::kTurn, count, turn_, in_order);
+  numbers(SampleUse::kRadius, bits_of(SampleUse::kRadius), count, radius_);
+  numbers(SampleUse::kTurn, bits_of(SampleUse::kTurn), count, turn_);
   cell.resize(count);
-  const auto rings = static_cast<float>(pattern_.rings), sectors = static_cast<float>(pattern_.sectors);
-  for (size_t i = 0; i < count; ++i)
-    cell[i] = static_cast<int>(radius_[i] * rings) * pattern_.sectors + static_cast<int>(turn_[i] * sectors);
+  kFindCells(radius_.data(), turn_.data(), count, pattern_.rings, pattern_.sectors, cell.data());
   if (!wanted.empty()) keep_wanted(wanted);
   if (point.base > 0) {
-    auto kept = [this](const uint32_t* bits, size_t i) { return bits[kept_[i]]; };
     for (size_t k = 0; k < 2; ++k) {
       const SampleUse use = k == 0 ? SampleUse::kBaseU : SampleUse::kBaseV;
-      if (wanted.empty())
-        numbers(use, count, base_[k], in_order);
-      else
-        numbers(use, cell.size(), base_[k], kept);
+      const uint32_t* bits = bits_of(use);
+      if (!wanted.empty()) {
+        kept_bits_.resize(cell.size());
+        for (size_t i = 0; i < cell.size(); ++i)
+          kept_bits_[i] = bits[kept_[i]];
+        bits = kept_bits_.data();
+      }
+      numbers(use, bits, cell.size(), base_[k]);
     }
   }
   finish(point);
@@ -146,20 +192,8 @@ void HemisphereAim::finish(const HemispherePoint& point) {
   }
   Vec3 x, y;
   basis_about(point.N, x, y);
-  const CosineOfRadius cosine_of(point.cone, cosine_weighted_);
-  const Vec3 n = point.N;
-  float *dx = direction[0].data(), *dy = direction[1].data(), *dz = direction[2].data();
-  const float *radius = radius_.data(), *turn = turn_.data();
-  for (size_t i = 0; i < count; ++i) {
-    const float cosine = cosine_of(radius[i]), squared = 1 - cosine * cosine,
-                sine = std::sqrt(squared > 0 ? squared : 0.0f);
-    float up, across;
-    slvm::sine_and_cosine(turn[i], up, across);
-    const float a = sine * across, b = sine * up;
-    dx[i] = x.x * a + y.x * b + n.x * cosine;
-    dy[i] = x.y * a + y.y * b + n.y * cosine;
-    dz[i] = x.z * a + y.z * b + n.z * cosine;
-  }
+  kAim(radius_.data(), turn_.data(), count, CosineOfRadius(point.cone, cosine_weighted_), x, y, point.N,
+          direction[0].data(), direction[1].data(), direction[2].data());
   for (int c = 0; c < 3; ++c) {
     float* to = origin[c].data();
     const float middle = point.P[c], u = point.base * point.along_u[c], v = point.base * point.along_v[c];
@@ -172,3 +206,4 @@ void HemisphereAim::finish(const HemispherePoint& point) {
 }
 
 } // namespace render
+#endif // HWY_ONCE

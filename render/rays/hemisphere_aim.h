@@ -39,6 +39,7 @@ private:
   bool cosine_weighted_;
   std::vector<uint32_t> block_of_;    ///< by cell
   std::vector<uint32_t> kept_;        ///< of the samples drawn last, those in wanted blocks
+  std::vector<uint32_t> kept_bits_;   ///< and their numbers before they are scrambled
   std::vector<uint32_t> sequence_[4]; ///< by use, where the pattern is a net
   std::vector<float> radius_, turn_;  ///< from 0 to 1: places in the disk
   std::vector<float> base_[2];        ///< and on the element

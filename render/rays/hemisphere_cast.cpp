@@ -6,7 +6,7 @@
 namespace render {
 
 /// Where it is enough to know whether there is anything.
-void HemisphereSampler::cast_blocked(std::span<const HemispherePoint> points, Rays& rays) {
+void HemisphereSampler::cast_blocked(Rays& rays) {
   RayGeometry& g = tracer_.geometry();
   const RayRule rule = g.rule(query_.rays.kind, query_.rays.subset, query_.rays.sides);
   slvm::RayBatch batch;
@@ -22,19 +22,17 @@ void HemisphereSampler::cast_blocked(std::span<const HemispherePoint> points, Ra
     auto tracing = g.tracing();
     for (size_t i = 0; i < rays.size(); ++i)
       if (g.world().any(rule, tracer_.segment(shooter_, query_.rays, batch, i))) {
-        rays.cell[i]->blocked = 1;
-        rays.cell[i]->distance = points[rays.index[i]].max_distance; // any number
+        cells_.blocked[rays.cell[i]] = 1;
+        cells_.distance[rays.cell[i]] = 1; // any number
       }
   }
-  for (Cell* cell : rays.cell)
-    if (cell->blocked > 0 && cell->distance == kInfinity) cell->distance = 1;
   g.trim();
 }
 
 void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays) {
   tracer_.hemisphere_rays_ += rays.size();
   if (only_blocked())
-    cast_blocked(points, rays);
+    cast_blocked(rays);
   else {
     slvm::RayBatch batch;
     batch.count = rays.size();
@@ -68,12 +66,13 @@ void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays
                      rays.distance.data(), nullptr);
     tracer_.rays_ -= rays.size();
     for (size_t i = 0; i < rays.size(); ++i) {
-      Cell& cell = *rays.cell[i];
-      float d = rays.distance[i];
-      cell.distance = d == slvm::kNotShot ? kInfinity : d;
-      cell.blocked = blocked_by(points[rays.index[i]], cell.distance);
-      if (wants_light_ && cell.distance < kInfinity)
-        cell.light = {rays.colours[i], rays.colours[rays.size() + i], rays.colours[2 * rays.size() + i]};
+      const size_t cell = rays.cell[i];
+      const float d = rays.distance[i] == slvm::kNotShot ? kInfinity : rays.distance[i];
+      cells_.distance[cell] = d;
+      cells_.blocked[cell] = blocked_by(points[rays.index[i]], d);
+      if (wants_light_ && d < kInfinity)
+        cells_.light[cell] = {rays.colours[i], rays.colours[rays.size() + i],
+                              rays.colours[2 * rays.size() + i]};
     }
   }
   if (wants_map_) look_up_map(rays);
@@ -92,7 +91,7 @@ void HemisphereSampler::look_up_map(Rays& rays) {
   std::vector<uint64_t> mask(rays.size() / 64 + 1);
   std::vector<float> result[3];
   for (size_t i = 0; i < rays.size(); ++i) {
-    if (rays.cell[i]->distance == kInfinity) mask[i / 64] |= uint64_t{1} << (i % 64);
+    if (cells_.distance[rays.cell[i]] == kInfinity) mask[i / 64] |= uint64_t{1} << (i % 64);
     Vec3 planes[3];
     const std::vector<float>* from[3] = {rays.direction, rays.direction_du, rays.direction_dv};
     for (size_t k = 0; k < 3; ++k)
@@ -111,8 +110,8 @@ void HemisphereSampler::look_up_map(Rays& rays) {
   if (std::string why = textures->environment(lookup); !why.empty()) problem_ = why;
   for (size_t i = 0; i < rays.size(); ++i)
     if (lookup.active(i)) {
-      rays.cell[i]->map = {result[0][i], result[1][i], result[2][i]};
-      rays.cell[i]->light = rays.cell[i]->map;
+      const size_t cell = rays.cell[i];
+      cells_.light[cell] = cells_.map[cell] = {result[0][i], result[1][i], result[2][i]};
     }
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 /// Lines and cells of fewer steps whose ends agree are interpolated without a look at their middles.
 constexpr int kVerified = 4;
+/// Points so few steps apart whose samples agree have nothing between them that would be seen, near as it may
+/// be.
+constexpr int kBeside = 2;
 /// Neighbouring normals with less between them, as a cosine, are of one side of a surface.
 constexpr float kTurnedRound = 0.3f;
 /// Rectangles of no more steps than this are not halved further where normals turn round in them.
@@ -143,7 +146,7 @@ private:
     if (steps > p_.most_steps) return false;
     const std::array<int, 2> ends{first, first + stride * steps};
     std::array<float, 2> reach = reaches(ends);
-    if (steps >= kVerified && all_blocked(ends)) reach.fill(kInfinity);
+    if (steps <= kBeside || (steps >= kVerified && all_blocked(ends))) reach.fill(kInfinity);
     for (int k = first; k <= ends[1]; k += stride) {
       if (!on(k)) return false;
       if (k == first || k == ends[1]) continue;
@@ -224,7 +227,9 @@ private:
     const std::array<int, 4> corners{j0 * p_.nu + i0, j0 * p_.nu + i1, j1 * p_.nu + i0, j1 * p_.nu + i1};
     if (!std::all_of(corners.begin(), corners.end(), [&](int k) { return on(k); })) return false;
     std::array<float, 4> reach = reaches(corners);
-    if (std::min(i1 - i0, j1 - j0) >= kVerified && all_blocked(corners)) reach.fill(kInfinity);
+    if (std::max(i1 - i0, j1 - j0) <= kBeside ||
+        (std::min(i1 - i0, j1 - j0) >= kVerified && all_blocked(corners)))
+      reach.fill(kInfinity);
     for (int j = j0; j <= j1; ++j)
       for (int i = i0; i <= i1; ++i) {
         int k = j * p_.nu + i;
@@ -301,18 +306,22 @@ private:
     return true;
   }
 
-  /// Coons' blend of the four edges at a point inside.
+  /// Coons' blend of the four edges at a point inside: values only, for nothing is interpolated from there.
   HemisphereSample in_cell(const Cell& cell, int i, int j) {
     auto [i0, j0, i1, j1] = cell;
-    float s = static_cast<float>(i - i0) / static_cast<float>(i1 - i0);
-    float t = static_cast<float>(j - j0) / static_cast<float>(j1 - j0);
-    HemisphereSample across = blend(at(j * p_.nu + i0), at(j * p_.nu + i1), s);
-    HemisphereSample down = blend(at(j0 * p_.nu + i), at(j1 * p_.nu + i), t);
-    HemisphereSample corners = blend(blend(at(j0 * p_.nu + i0), at(j0 * p_.nu + i1), s),
-                                     blend(at(j1 * p_.nu + i0), at(j1 * p_.nu + i1), s), t);
-    HemisphereSample out = blend(across, down, 0.5f);
-    for (size_t c = 0; c < kValues; ++c)
-      out.value[c] = across.value[c] + down.value[c] - corners.value[c];
+    const float s = static_cast<float>(i - i0) / static_cast<float>(i1 - i0),
+                t = static_cast<float>(j - j0) / static_cast<float>(j1 - j0);
+    auto values = [&](int row, int column) -> const auto& {
+      return at(row * p_.nu + column).value;
+    };
+    const auto &left = values(j, i0), &right = values(j, i1), &low = values(j0, i), &high = values(j1, i);
+    const auto &a = values(j0, i0), &b = values(j0, i1), &c = values(j1, i0), &d = values(j1, i1);
+    HemisphereSample out;
+    for (size_t k = 0; k < kValues; ++k) {
+      const float across = left[k] + (right[k] - left[k]) * s, down = low[k] + (high[k] - low[k]) * t;
+      const float first = a[k] + (b[k] - a[k]) * s, last = c[k] + (d[k] - c[k]) * s;
+      out.value[k] = across + down - (first + (last - first) * t);
+    }
     return out;
   }
 

@@ -12,7 +12,7 @@ struct HemisphereSampler::Rays {
   std::vector<float> origin[3], direction[3], direction_du[3], direction_dv[3], still[3], max_distance, bias,
       distance, colours, weight[3];
   std::vector<uint32_t> point, sample;
-  std::vector<Cell*> cell;
+  std::vector<size_t> cell;  ///< among those of all points being sampled
   std::vector<size_t> index; ///< of the point among those being sampled
 
   void clear() {

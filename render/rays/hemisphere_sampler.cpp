@@ -15,9 +15,9 @@ namespace render {
 namespace {
 
 constexpr size_t kRaysAtATime = 8192;
-/// Blocks of cells whose distances differ by this factor, or whose light by this part of the whole, are
-/// looked at again.
-constexpr float kDistanceContrast = 1.5f, kLightContrast = 0.1f;
+/// Blocks of cells whose distances differ by this factor, whose light by this part of the whole, or of which
+/// so much more of one is blocked, are looked at again.
+constexpr float kDistanceContrast = 1.5f, kLightContrast = 0.1f, kBlockedContrast = 0.1f;
 
 uint64_t mix(uint64_t a, uint64_t b) {
   return hash_of(static_cast<int64_t>(a), static_cast<int64_t>(b), kHemisphere);
@@ -44,6 +44,10 @@ HemisphereSampler::HemisphereSampler(RayTracer& tracer, const slvm::ShadingState
         by_block_.push_back(
             static_cast<uint32_t>((b / across * pattern_.ring_block + ring) * pattern_.sectors +
                                   b % across * pattern_.sector_block + sector));
+  for (int i = 0; i < 2 * pattern_.sectors; ++i) {
+    const float angle = kPi * static_cast<float>(i) / static_cast<float>(pattern_.sectors);
+    around_.emplace_back(std::cos(angle), std::sin(angle));
+  }
   wants_light_ = query.radiance[0] && query.rays.shades;
   wants_map_ = !query.environment_map.empty() && (query.radiance[0] || query.environment_colour[0]);
   const slvm::RayFacts& f = state.grid.ray;
@@ -102,19 +106,22 @@ void HemisphereSampler::push_rays(Rays& rays, const HemispherePoint& p, size_t i
   rays.bias.resize(before + count, p.bias);
   rays.point.resize(before + count, p.number);
   rays.index.resize(before + count, index);
-  Cell* cells = &cells_[index * static_cast<size_t>(pattern_.cells())];
+  const size_t first_cell = index * static_cast<size_t>(pattern_.cells());
+  rays.cell.resize(before + count);
+  rays.sample.resize(before + count);
   for (size_t i = 0; i < count; ++i) {
-    Cell& cell = cells[aim_.cell[i]];
-    cell.direction = {aim_.direction[0][i], aim_.direction[1][i], aim_.direction[2][i]};
-    cell.shot = true;
-    rays.cell.push_back(&cell);
-    rays.sample.push_back(static_cast<uint32_t>(aim_.cell[i]));
+    const auto number = static_cast<uint32_t>(aim_.cell[i]);
+    const size_t cell = first_cell + number;
+    cells_.direction[cell] = {aim_.direction[0][i], aim_.direction[1][i], aim_.direction[2][i]};
+    cells_.shot[cell] = 1;
+    rays.cell[before + i] = cell;
+    rays.sample[before + i] = number;
   }
   if (!needs_width()) return;
   const float spread = spread_of(pattern_);
   for (size_t i = before; i < before + count; ++i) {
     Vec3 x, y;
-    basis_about(rays.cell[i]->direction, x, y);
+    basis_about(cells_.direction[rays.cell[i]], x, y);
     for (int c = 0; c < 3; ++c) {
       rays.direction_du[c].push_back(x[c] * spread);
       rays.direction_dv[c].push_back(y[c] * spread);
@@ -134,35 +141,40 @@ void HemisphereSampler::first_rays(std::span<const HemispherePoint> points, Rays
   }
 }
 
-bool HemisphereSampler::differs(const Cell& a, const Cell& b) const {
-  if ((a.distance == kInfinity) != (b.distance == kInfinity)) return true;
-  if (only_blocked()) return false;
-  if (a.distance != kInfinity &&
-      std::max(a.distance, b.distance) > kDistanceContrast * std::min(a.distance, b.distance))
-    return true;
+/// Whether there may be an edge between what two neighbouring rays met. Where nothing but what is in the way
+/// counts, it does not matter how far away that is.
+bool HemisphereSampler::differs(size_t a, size_t b) const {
+  const float x = cells_.distance[a], y = cells_.distance[b];
+  if ((x == kInfinity) != (y == kInfinity)) return true;
+  if (std::abs(cells_.blocked[a] - cells_.blocked[b]) > kBlockedContrast) return true;
+  if (!needs_width()) return false;
+  if (x != kInfinity && std::max(x, y) > kDistanceContrast * std::min(x, y)) return true;
+  const Color &p = cells_.light[a], &q = cells_.light[b];
   for (int c = 0; c < 3; ++c)
-    if (std::abs(a.light[c] - b.light[c]) > kLightContrast * std::max({a.light[c], b.light[c], 0.1f}))
-      return true;
+    if (std::abs(p[c] - q[c]) > kLightContrast * std::max({p[c], q[c], 0.1f})) return true;
   return false;
 }
 
 /// The cells left in blocks that differ from one of the four beside them.
 void HemisphereSampler::more_rays(std::span<const HemispherePoint> points, Rays& rays) {
-  int across = pattern_.sectors / pattern_.sector_block, down = pattern_.rings / pattern_.ring_block;
+  const auto across = static_cast<size_t>(pattern_.sectors / pattern_.sector_block),
+             blocks = static_cast<size_t>(pattern_.blocks());
+  std::vector<uint8_t> wanted(blocks);
   for (size_t i = 0; i < points.size(); ++i) {
-    Cell* cells = &cells_[i * static_cast<size_t>(pattern_.cells())];
-    const int* chosen = &chosen_[i * static_cast<size_t>(pattern_.blocks())];
-    std::vector<uint8_t> wanted(static_cast<size_t>(pattern_.blocks()));
-    for (int b = 0; b < pattern_.blocks(); ++b) {
-      int row = b / across, column = b % across;
-      const Cell& own = cells[chosen[b]];
-      auto other = [&](int r, int c) {
-        return r >= 0 && r < down && differs(own, cells[chosen[r * across + (c + across) % across]]);
-      };
-      wanted[static_cast<size_t>(b)] = other(row - 1, column) || other(row + 1, column) ||
-                                       other(row, column - 1) || other(row, column + 1);
+    const size_t first = i * static_cast<size_t>(pattern_.cells());
+    const int* chosen = &chosen_[i * blocks];
+    std::fill(wanted.begin(), wanted.end(), uint8_t{0});
+    auto compare = [&](size_t a, size_t b) {
+      if ((wanted[a] && wanted[b]) ||
+          !differs(first + static_cast<size_t>(chosen[a]), first + static_cast<size_t>(chosen[b])))
+        return;
+      wanted[a] = wanted[b] = 1;
+    };
+    for (size_t b = 0; b < blocks; ++b) {
+      compare(b, b % across + 1 < across ? b + 1 : b + 1 - across);
+      if (b + across < blocks) compare(b, b + across);
     }
-    aim_.others(points[i], seed_of(points[i]), wanted, {chosen, wanted.size()});
+    aim_.others(points[i], seed_of(points[i]), wanted, {chosen, blocks});
     push_rays(rays, points[i], i);
   }
 }
@@ -176,100 +188,88 @@ float HemisphereSampler::blocked_by(const HemispherePoint& p, float distance) co
              : 1.0f;
 }
 
-/// f(cells of a block, by number; how many of them were shot: one or all) for all blocks.
-template <class F> void HemisphereSampler::for_blocks(const Cell* cells, F&& f) const {
-  const size_t size = by_block_.size() / static_cast<size_t>(pattern_.blocks());
-  for (size_t first = 0; first < by_block_.size(); first += size) {
-    const auto block = std::span(by_block_).subspan(first, size);
-    int shot = 0;
-    for (uint32_t cell : block)
-      shot += cells[cell].shot;
-    f(block, shot);
-  }
-}
-
-void HemisphereSampler::finish(const HemispherePoint& p, Cell* cells, HemisphereSample& out) const {
+void HemisphereSampler::finish(const HemispherePoint& p, size_t index, HemisphereSample& out) {
+  const auto blocks = static_cast<size_t>(pattern_.blocks()), size = by_block_.size() / blocks;
+  const size_t first = index * by_block_.size();
   double sum[HemisphereSample::kValues] = {}, nearness = 0;
-  auto add = [&](const Cell& cell, float weight) {
-    sum[0] += weight * cell.blocked;
-    for (int c = 0; c < 3 && needs_width(); ++c) {
-      sum[1 + c] += weight * cell.light[c];
-      sum[4 + c] += weight * cell.map[c];
+  const bool coloured = needs_width();
+  auto add = [&](size_t cell, float weight) {
+    sum[0] += weight * cells_.blocked[cell];
+    for (int c = 0; c < 3 && coloured; ++c) {
+      sum[1 + c] += weight * cells_.light[cell][c];
+      sum[4 + c] += weight * cells_.map[cell][c];
     }
-    for (int c = 0; c < 3 && cell.distance == kInfinity; ++c)
-      sum[7 + c] += weight * cell.direction[c];
+    if (cells_.distance[cell] == kInfinity)
+      for (int c = 0; c < 3; ++c)
+        sum[7 + c] += weight * cells_.direction[cell][c];
     // Behind the farthest distance there may be anything.
-    float distance = std::min(cell.distance, p.max_distance);
-    if (distance < kInfinity) nearness += weight / std::max(distance, 1e-20f);
+    nearness += weight / std::max(std::min(cells_.distance[cell], p.max_distance), 1e-20f);
   };
-  for_blocks(cells, [&](std::span<const uint32_t> block, int shot) {
+  const bool fills = interpolated_ && query_.cosine && p.cone <= kPi / 2 + 1e-4f;
+  for (size_t b = 0; b < blocks; ++b) {
+    const auto block = std::span(by_block_).subspan(b * size, size);
+    const auto chosen = static_cast<uint32_t>(chosen_[index * blocks + b]);
+    if (cells_.shot[first + (block.front() == chosen ? block.back() : block.front())]) {
+      for (uint32_t cell : block)
+        add(first + cell, 1);
+      continue;
+    }
     // Cells that were left out are like the one of their block that was not.
-    const float weight = static_cast<float>(block.size()) / static_cast<float>(shot);
+    add(first + chosen, static_cast<float>(size));
     for (uint32_t cell : block)
-      if (cells[cell].shot) add(cells[cell], weight);
-  });
+      if (fills && cell != chosen) cells_.copy(first + chosen, first + cell);
+  }
   const double count = pattern_.cells();
   for (size_t i = 0; i < HemisphereSample::kValues; ++i)
     out.value[i] = static_cast<float>(sum[i] / count);
   out.distance = nearness > 0 ? static_cast<float>(count / nearness) : kInfinity;
-  if (!interpolated_ || !query_.cosine || p.cone > kPi / 2 + 1e-4f) return;
-  for_blocks(cells, [&](std::span<const uint32_t> block, int shot) {
-    if (shot == static_cast<int>(block.size())) return;
-    const Cell seen =
-        cells[*std::find_if(block.begin(), block.end(), [&](uint32_t c) { return cells[c].shot; })];
-    for (uint32_t cell : block)
-      if (!cells[cell].shot) cells[cell] = seen;
-  });
-  gradients(p, cells, out);
+  if (fills) gradients(p, first, out);
 }
 
 /// Ward and Heckbert 1992, equations for the rotation and the translation gradient, for means instead of
 /// integrals; turns are about right-handed axes.
-void HemisphereSampler::gradients(const HemispherePoint& p, const Cell* cells, HemisphereSample& out) const {
-  const int M = pattern_.rings, N = pattern_.sectors;
-  float reach = std::sin(std::min(p.cone, kPi / 2));
+void HemisphereSampler::gradients(const HemispherePoint& p, size_t first, HemisphereSample& out) {
+  const auto M = static_cast<size_t>(pattern_.rings), N = static_cast<size_t>(pattern_.sectors);
+  const float reach = std::sin(std::min(p.cone, kPi / 2)), norm = 1 / (kPi * reach * reach);
+  auto sine = [&](float ring) { return reach * std::sqrt(ring / static_cast<float>(M)); };
   Vec3 x, y;
   basis_about(p.N, x, y);
-  // Light and map only where they are asked for.
-  const size_t count = needs_width() ? HemisphereSample::kGradients : 1;
-  auto value = [](const Cell& c, size_t i) {
-    return i == 0 ? c.blocked : i < 4 ? c.light[static_cast<int>(i - 1)] : c.map[static_cast<int>(i - 4)];
-  };
-  auto sine = [&](float ring) { return reach * std::sqrt(ring / static_cast<float>(M)); };
-  auto around = [&](float sector) {
-    float a = 2 * kPi * sector / static_cast<float>(N);
-    return x * std::cos(a) + y * std::sin(a);
-  };
-  const float norm = 1 / (kPi * reach * reach);
-  auto move = [&](const Cell& cell, const Cell& other, Vec3 along, float factor) {
-    float nearest = std::min(cell.distance, other.distance);
-    if (!(nearest < kInfinity)) return;
-    for (size_t i = 0; i < count; ++i)
-      if (float change = value(cell, i) - value(other, i); change != 0)
-        out.move[i] += along * (factor * norm / std::max(nearest, 1e-6f) * change);
-  };
-  struct Ring {
-    float inner, width,
-        turn; ///< of the ring's edge towards the axis; to the other one; by the cell's tangent
-  };
-  std::vector<Ring> rings;
-  for (int j = 0; j < M; ++j) {
-    float s = sine(static_cast<float>(j)), middle = sine(static_cast<float>(j) + 0.5f);
-    float tangent = middle / std::sqrt(std::max(1 - middle * middle, 1e-4f));
-    rings.push_back({2 * kPi / static_cast<float>(N) * s * (1 - s * s), sine(static_cast<float>(j + 1)) - s,
-                     tangent / static_cast<float>(M * N)});
-  }
-  for (int k = 0; k < N; ++k) {
-    Vec3 radial = around(static_cast<float>(k) + 0.5f);
-    Vec3 turned = glm::cross(p.N, radial), at_edge = glm::cross(p.N, around(static_cast<float>(k)));
-    for (int j = 0; j < M; ++j) {
-      const Cell& cell = cells[j * N + k];
-      const Ring& ring = rings[static_cast<size_t>(j)];
-      if (j > 0) move(cell, cells[(j - 1) * N + k], radial, ring.inner);
-      move(cell, cells[j * N + (k + N - 1) % N], at_edge, ring.width);
-      for (size_t i = 0; i < count; ++i)
-        out.turn[i] += turned * (ring.turn * value(cell, i));
+  // For each value its numbers, `stride` apart. Light and map only where they are asked for.
+  auto of_value = [&](const float* value, size_t stride, Vec3& move, Vec3& turn) {
+    for (auto& sums : by_sector_)
+      sums.assign(N, 0.0f);
+    float *outwards = by_sector_[0].data(), *aside = by_sector_[1].data(), *tilt = by_sector_[2].data();
+    const float* distance = &cells_.distance[first];
+    auto change = [&](size_t cell, size_t other) {
+      return (value[cell * stride] - value[other * stride]) /
+             std::max(std::min(distance[cell], distance[other]), 1e-6f);
+    };
+    for (size_t j = 0; j < M; ++j) {
+      const auto ring = static_cast<float>(j);
+      const float s = sine(ring), middle = sine(ring + 0.5f), row_width = sine(ring + 1) - s;
+      const float inner = 2 * kPi / static_cast<float>(N) * s * (1 - s * s);
+      const float tangent = middle / std::sqrt(std::max(1 - middle * middle, 1e-4f));
+      const float turned = tangent / static_cast<float>(M * N);
+      const size_t row = j * N;
+      for (size_t k = 0; k < N && j > 0; ++k)
+        outwards[k] += inner * change(row + k, row + k - N);
+      aside[0] += row_width * change(row, row + N - 1);
+      for (size_t k = 1; k < N; ++k)
+        aside[k] += row_width * change(row + k, row + k - 1);
+      for (size_t k = 0; k < N; ++k)
+        tilt[k] += turned * value[(row + k) * stride];
     }
+    for (size_t k = 0; k < N; ++k) {
+      const Vec2 edge = around_[2 * k], middle = around_[2 * k + 1];
+      const Vec3 radial = x * middle.x + y * middle.y;
+      move += radial * (norm * outwards[k]) + glm::cross(p.N, x * edge.x + y * edge.y) * (norm * aside[k]);
+      turn += glm::cross(p.N, radial) * tilt[k];
+    }
+  };
+  of_value(&cells_.blocked[first], 1, out.move[0], out.turn[0]);
+  for (size_t c = 0; c < 3 && needs_width(); ++c) {
+    of_value(&cells_.light[first][static_cast<int>(c)], 3, out.move[1 + c], out.turn[1 + c]);
+    of_value(&cells_.map[first][static_cast<int>(c)], 3, out.move[4 + c], out.turn[4 + c]);
   }
 }
 
@@ -289,7 +289,7 @@ void HemisphereSampler::sample(std::span<const HemispherePoint> points, std::spa
       shooter_.seed = mix(seed_of(part[0]), uint64_t{part[0].pass});
       shooter_.one_point = true;
     }
-    cells_.assign(part.size() * cells, {});
+    cells_.reset(part.size() * cells, needs_width());
     rays.clear();
     first_rays(part, rays);
     cast(part, rays);
@@ -299,7 +299,7 @@ void HemisphereSampler::sample(std::span<const HemispherePoint> points, std::spa
       if (rays.size() > 0) cast(part, rays);
     }
     for (size_t i = 0; i < part.size(); ++i)
-      finish(part[i], &cells_[i * cells], out[first + i]);
+      finish(part[i], i, out[first + i]);
     first += part.size();
   }
 }

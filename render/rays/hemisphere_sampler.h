@@ -29,12 +29,28 @@ public:
   const std::string& problem() const { return problem_; }
 
 private:
-  /// What one ray brought.
-  struct Cell {
-    Vec3 direction{0.0f};
-    float distance = kInfinity, blocked = 0;
-    Color light{0.0f}, map{0.0f};
-    bool shot = false;
+  /// What rays brought: for all cells of a point, then for those of the next.
+  struct Cells {
+    std::vector<Vec3> direction;
+    std::vector<float> distance, blocked;
+    std::vector<Color> light, map; ///< where rays bring any
+    std::vector<uint8_t> shot;
+    void reset(size_t count, bool coloured) {
+      direction.resize(count);
+      distance.assign(count, kInfinity);
+      blocked.assign(count, 0.0f);
+      light.assign(coloured ? count : 0, Color(0.0f));
+      map.assign(coloured ? count : 0, Color(0.0f));
+      shot.assign(count, 0);
+    }
+    /// Makes a cell that was left out like another one.
+    void copy(size_t from, size_t to) {
+      distance[to] = distance[from];
+      blocked[to] = blocked[from];
+      if (light.empty()) return;
+      light[to] = light[from];
+      map[to] = map[from];
+    }
   };
   struct Rays;
 
@@ -42,12 +58,11 @@ private:
   void first_rays(std::span<const HemispherePoint> points, Rays& rays);
   void more_rays(std::span<const HemispherePoint> points, Rays& rays);
   void cast(std::span<const HemispherePoint> points, Rays& rays);
-  void cast_blocked(std::span<const HemispherePoint> points, Rays& rays);
+  void cast_blocked(Rays& rays);
   void look_up_map(Rays& rays);
-  void finish(const HemispherePoint& point, Cell* cells, HemisphereSample& out) const;
-  template <class F> void for_blocks(const Cell* cells, F&& f) const;
-  void gradients(const HemispherePoint& point, const Cell* cells, HemisphereSample& out) const;
-  bool differs(const Cell& a, const Cell& b) const;
+  void finish(const HemispherePoint& point, size_t index, HemisphereSample& out);
+  void gradients(const HemispherePoint& point, size_t first, HemisphereSample& out);
+  bool differs(size_t a, size_t b) const;
   float blocked_by(const HemispherePoint& point, float distance) const;
   uint64_t seed_of(const HemispherePoint& point) const;
 
@@ -63,9 +78,11 @@ private:
   /// Whether rays bring anything that is filtered.
   bool needs_width() const { return wants_light_ || wants_map_; }
 
-  std::vector<Cell> cells_;        ///< of all points being sampled
-  std::vector<int> chosen_;        ///< of each block of each point: the cell that is shot first
-  std::vector<uint32_t> by_block_; ///< cells in the order of their blocks
+  Cells cells_;                     ///< of all points being sampled
+  std::vector<int> chosen_;         ///< of each block of each point: the cell that is shot first
+  std::vector<uint32_t> by_block_;  ///< cells in the order of their blocks
+  std::vector<Vec2> around_;        ///< cosine and sine at edges and middles of sectors, in turn
+  std::vector<float> by_sector_[3]; ///< sums of gradients
   HemisphereAim aim_;
   std::unique_ptr<Rays> rays_; ///< with its memory
   std::string problem_;

@@ -42,40 +42,12 @@ SurfaceSpot in_camera(const Matrix4& to_camera, const SurfaceLattice& lattice, s
           transform_vector(to_camera, lattice.dPdv[k])};
 }
 
-/// Which points of a surface are the ones below or above where rays met its faces: these may be off them, as
-/// faces are off the surface, but not beside.
-class NearnessTest {
-public:
-  explicit NearnessTest(const PrimitiveState& state)
-      : m_(state.camera_to_object), affine_(is_affine(m_)), origin_(m_(3, 0), m_(3, 1), m_(3, 2)) {
-    // The greatest factor by which lengths grow towards camera space is no more than this (Gershgorin, of the
-    // squares); of rigid and even scalings it is it.
-    const Matrix4& to_camera = state.object_to_camera;
-    for (int i = 0; i < 3; ++i) {
-      float row = 0;
-      for (int j = 0; j < 3; ++j) {
-        float sum = 0;
-        for (int c = 0; c < 3; ++c)
-          sum += to_camera(i, c) * to_camera(j, c);
-        row += std::abs(sum);
-      }
-      squared_growth_ = std::max(squared_growth_, row);
-    }
-  }
-  bool passes(const SurfaceLattice& lattice, size_t k, Vec3 target, float distance) const {
-    const Vec3 there = affine_ ? transform_vector(m_, target) + origin_ : transform_point(m_, target);
-    const Vec3 off = there - lattice.P[k], N = lattice.N[k];
-    const float along = glm::dot(off, N), length = glm::dot(N, N), most = kNearEnough * distance;
-    // |off|^2 without what lies along N.
-    return (glm::dot(off, off) * length - along * along) * squared_growth_ <= most * most * length;
-  }
-
-private:
-  const Matrix4& m_;
-  bool affine_;
-  Vec3 origin_;
-  float squared_growth_ = 0;
-};
+/// Whether a point of a surface is below or above where a ray met its faces: not farther beside than `most`.
+bool is_near(const SurfaceSpot& spot, Vec3 target, float most) {
+  const Vec3 off = target - spot.P, N = glm::cross(spot.dPdu, spot.dPdv);
+  const float along = glm::dot(off, N);
+  return (glm::dot(off, off) - most * most) * glm::dot(N, N) <= along * along;
+}
 
 void copy_point(const SurfaceLattice& from, size_t i, SurfaceLattice& to, size_t k) {
   to.P.set(k, from.P[i]);
@@ -113,17 +85,14 @@ Footprint footprint_on(const HitRays& rays, const HitRay& hit, const SurfaceSpot
 void HitGrid::find_runs(const Scene& scene, std::span<const HitRay> hits) {
   moved_.clear();
   runs_.clear();
-  for (size_t i = 0; i < hits.size(); ++i) {
-    const HitRay& hit = hits[i];
+  for (size_t first = 0, end = 0; first < hits.size(); first = end) {
+    const HitRay& hit = hits[first];
     const Primitive* p = &scene.primitives[hit.place.primitive];
-    bool moves = hit.time > 0 && (!p->deformation.empty() || !p->state->motion.empty());
-    if (i > 0 && hits[i - 1].place.primitive == hit.place.primitive &&
-        (!moves || hits[i - 1].time == hit.time)) {
-      ++runs_.back().count;
-      continue;
-    }
-    if (moves) p = &moved_.emplace_back(primitive_at(*p, hit.time));
-    runs_.push_back({p, i, 1, hit.place.displaced});
+    const bool moves = !p->deformation.empty() || !p->state->motion.empty();
+    for (end = first + 1; end < hits.size(); ++end)
+      if (hits[end].place.primitive != hit.place.primitive || (moves && hits[end].time != hit.time)) break;
+    if (moves && hit.time > 0) p = &moved_.emplace_back(primitive_at(*p, hit.time));
+    runs_.push_back({p, first, end - first, hit.place.displaced});
   }
 }
 
@@ -133,37 +102,82 @@ UvPoints HitGrid::points(const Run& run, size_t row) const {
   return {std::span(u_).subspan(first, run.count), std::span(v_).subspan(first, run.count), true};
 }
 
+/// The hits' origins, and where they met the faces. They are in another order than their rays: these are read
+/// once.
+void HitGrid::take_rays(const HitRays& rays, std::span<const HitRay> hits) {
+  const size_t n = hits.size();
+  u_.resize(n);
+  v_.resize(n);
+  distances_.resize(n);
+  origins_.resize(n);
+  targets_.resize(n);
+  for (size_t i = 0; i < n; ++i) {
+    u_[i] = hits[i].place.u;
+    v_[i] = hits[i].place.v;
+    distances_[i] = hits[i].distance;
+    origins_.set(i, rays.origin(hits[i]));
+    targets_.set(i, rays.direction(hits[i]));
+  }
+  for (size_t c = 0; c < 3; ++c) {
+    const float *from = origins_.planes[c].data(), *distance = distances_.data();
+    float* to = targets_.planes[c].data();
+    for (size_t i = 0; i < n; ++i)
+      to[i] = from[i] + to[i] * distance[i];
+  }
+}
+
 /// Appends a row to the lattice: of hits or of their neighbours.
 void HitGrid::evaluate(size_t row) {
+  if (row == 0 && runs_.size() == 1)
+    return runs_[0].primitive->geometry->evaluate(points(runs_[0], row), lattice_);
+  if (row == 0) lattice_.resize(0);
   for (const Run& run : runs_) {
-    if (row == 0 && runs_.size() == 1) return run.primitive->geometry->evaluate(points(run, row), lattice_);
     run.primitive->geometry->evaluate(points(run, row), scratch_);
     lattice_.append(scratch_);
   }
 }
 
-/// Lists the hits of a run that are not where their rays are.
-void HitGrid::find_open(const Run& run, std::span<const HitRay> hits) {
+/// P and what belongs to it, from the lattice.
+void HitGrid::dice_run(const Run& run, const ReadVariables& read) {
+  const SurfacePoints part{run.primitive, points(run, 0), run.first};
+  dice_geometry({&part, 1}, lattice_, read, grid);
+}
+
+/// Lists the hits of a run that are not where their rays are: beside, that is, for faces are off the surface.
+void HitGrid::find_open(const Run& run) {
   open_.clear();
   if (run.displaced) return; // displaced faces tell nothing about the surface below
-  const NearnessTest is_near(*run.primitive->state);
-  for (size_t k = run.first; k < run.first + run.count; ++k)
-    if (!is_near.passes(lattice_, k, targets_[k], hits[k].distance))
-      open_.push_back(static_cast<uint32_t>(k));
+  const size_t pitch = grid.pitch(), first = run.first;
+  const float *P = grid.variable(Global::kP).data + first, *N = grid.variable(Global::kN).data + first,
+              *distance = distances_.data() + first;
+  const float* T[3];
+  for (size_t c = 0; c < 3; ++c)
+    T[c] = targets_.planes[c].data() + first;
+  off_.resize(run.count);
+  float* __restrict off = off_.data();
+  for (size_t k = 0; k < run.count; ++k) {
+    const float x = T[0][k] - P[k], y = T[1][k] - P[pitch + k], z = T[2][k] - P[2 * pitch + k];
+    const float nx = N[k], ny = N[pitch + k], nz = N[2 * pitch + k];
+    const float along = x * nx + y * ny + z * nz, length = nx * nx + ny * ny + nz * nz,
+                most = kNearEnough * distance[k];
+    // |off|^2 without what lies along N.
+    off[k] = (x * x + y * y + z * z - most * most) * length - along * along;
+  }
+  for (size_t k = 0; k < run.count; ++k)
+    if (!(off[k] <= 0)) open_.push_back(static_cast<uint32_t>(first + k));
 }
 
 /// Takes `open_` hits to the points of the surface that lie nearest to where their rays met the faces, which
 /// are a little off the surface, and their parameters off its.
 void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
   constexpr int kRounds = 6;
-  const NearnessTest is_near(*run.primitive->state);
   const Matrix4& m = run.primitive->state->object_to_camera;
   for (int round = 0; round < kRounds && !open_.empty(); ++round) {
     next_u_.clear();
     next_v_.clear();
     std::erase_if(open_, [&](uint32_t k) {
       SurfaceSpot spot = in_camera(m, lattice_, k);
-      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, targets_[k] - spot.P);
+      Vec2 step = nearest_combination(spot.dPdu, spot.dPdv, targets_.get(k) - spot.P);
       float longest = std::max(std::abs(step.x), std::abs(step.y));
       if (!(longest < kInfinity)) return true;
       if (longest > 0.5f) step *= 0.5f / longest;
@@ -178,14 +192,14 @@ void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
     size_t kept = 0;
     for (size_t i = 0; i < open_.size(); ++i) {
       uint32_t k = open_[i];
-      const Vec3 target = targets_[k];
+      const Vec3 target = targets_.get(k);
       if (glm::distance(transform_point(m, scratch_.P[i]), target) >
           glm::distance(transform_point(m, lattice_.P[k]), target))
         continue;
       u_[k] = next_u_[i];
       v_[k] = next_v_[i];
       copy_point(scratch_, i, lattice_, k);
-      if (!is_near.passes(lattice_, k, target, hits[k].distance)) open_[kept++] = k;
+      if (!is_near(in_camera(m, lattice_, k), target, kNearEnough * hits[k].distance)) open_[kept++] = k;
     }
     open_.resize(kept);
   }
@@ -193,18 +207,23 @@ void HitGrid::settle(const Run& run, std::span<const HitRay> hits) {
 
 /// The footprint as two sides of a parallelogram becomes steps along u and along v, and its sides in these
 /// steps.
-void HitGrid::take_footprints(const HitRays& rays, std::span<const HitRay> hits) {
-  size_t n = hits.size();
+void HitGrid::find_footprints(const HitRays& rays, std::span<const HitRay> hits) {
+  const size_t n = hits_, pitch = grid.pitch();
   for (auto& plane : footprint_)
     plane.resize(n);
   u_stretch_.resize(n);
   v_stretch_.resize(n);
   u_.resize(3 * n);
   v_.resize(3 * n);
-  for (const Run& run : runs_)
+  const float *P = grid.variable(Global::kP).data, *dPdu = grid.variable(Global::kdPdu).data,
+              *dPdv = grid.variable(Global::kdPdv).data;
+  for (const Run& run : runs_) {
+    const UvRect& whole = run.primitive->uv;
+    const float width_u = whole.u1 - whole.u0, width_v = whole.v1 - whole.v0;
     for (size_t i = run.first; i < run.first + run.count; ++i) {
-      Footprint f =
-          footprint_on(rays, hits[i], in_camera(run.primitive->state->object_to_camera, lattice_, i));
+      const Footprint f = footprint_on(rays, hits[i],
+                                       {plane_point(P, pitch, i), plane_point(dPdu, pitch, i) * width_u,
+                                        plane_point(dPdv, pitch, i) * width_v});
       float along_u = std::sqrt(f.ux * f.ux + f.uy * f.uy), along_v = std::sqrt(f.vx * f.vx + f.vy * f.vy);
       // A ray that has no width in a direction still has derivatives there.
       float step_u = along_u > 1e-9f ? along_u : kLeastStep, step_v = along_v > 1e-9f ? along_v : kLeastStep;
@@ -219,86 +238,126 @@ void HitGrid::take_footprints(const HitRays& rays, std::span<const HitRay> hits)
       u_stretch_[i] = step_u / du;
       v_stretch_[i] = step_v / dv;
     }
+  }
+  for (size_t c = 0; c < 4; ++c)
+    grid.footprint[c] = footprint_[c].data();
+}
+
+namespace {
+
+/// Which of the variables that the geometry decides are worth evaluating it at neighbours for: P follows from
+/// tangents.
+bool needs_surface_beside(const ReadVariables& read) {
+  return read.has_beside(Global::kN) || read.has_beside(Global::kNg) || read.has_beside(Global::kdPdu) ||
+         read.has_beside(Global::kdPdv);
+}
+
+} // namespace
+
+/// Geometry and variables of the neighbours that are evaluated on the surface; those of parts_ that are
+/// `beside`.
+void HitGrid::dice_beside(const ReadVariables& read) {
+  for (const Run& run : runs_)
+    for (size_t row : {1, 2})
+      parts_.push_back({run.primitive, points(run, row), row * hits_ + run.first, true});
+  if (!needs_surface_beside(read)) return;
+  evaluate(1);
+  evaluate(2);
+  dice_geometry(std::span(parts_).subspan(runs_.size()), lattice_, read, grid);
 }
 
 void HitGrid::dice(const Scene& scene, const HitRays& rays, std::span<const HitRay> hits, bool beside,
                    const DiceContext& context, const ReadVariables& read) {
-  const size_t n = hits.size(), rows = beside ? 3 : 1;
-  find_runs(scene, hits);
-  u_.resize(n);
-  v_.resize(n);
-  origins_.resize(rows * n);
-  targets_.resize(n);
-  for (size_t i = 0; i < n; ++i) { // hits are in another order than their rays: these are read once
-    u_[i] = hits[i].place.u;
-    v_[i] = hits[i].place.v;
-    origins_[i] = rays.origin(hits[i]);
-    targets_[i] = origins_[i] + rays.direction(hits[i]) * hits[i].distance;
-  }
-  hits_ = n;
-  lattice_.resize(0);
-  evaluate(0);
-  for (const Run& run : runs_) {
-    find_open(run, hits);
-    if (!open_.empty()) settle(run, hits);
-  }
-  grid.reset(static_cast<int>(n), static_cast<int>(rows));
-  if (beside) {
-    take_footprints(rays, hits);
-    evaluate(1);
-    evaluate(2);
-  }
-  parts_.clear();
-  for (const Run& run : runs_)
-    for (size_t row = 0; row < rows; ++row)
-      parts_.push_back({run.primitive, points(run, row), row * n + run.first});
+  hits_ = hits.size();
   ReadVariables diced = read;
-  diced.predefined.reset(static_cast<size_t>(Global::kI)); // rays have their own
-  if (beside) // steps are differences of these, which primitives may bring along
-    for (Global g : {Global::ku, Global::kv})
+  if (beside) // steps are along tangents, and differences of parameters, which primitives may bring along
+    for (Global g : {Global::ku, Global::kv, Global::kdPdu, Global::kdPdv})
       diced.predefined.set(static_cast<size_t>(g));
-  dice_points(parts_, lattice_, context, diced, grid);
-  // A primitive that was moved in time is this grid's only.
-  grid.user = &scene.primitives[hits[0].place.primitive];
+  grid.reset(static_cast<int>(hits_), beside ? 3 : 1);
   grid.lattice = slvm::Lattice::kHits;
   grid.derivatives = beside;
-  if (beside) {
-    stretch(n);
-    for (size_t c = 0; c < 4; ++c)
-      grid.footprint[c] = footprint_[c].data();
+  find_runs(scene, hits);
+  take_rays(rays, hits);
+  evaluate(0);
+  parts_.clear();
+  for (const Run& run : runs_) {
+    dice_run(run, diced);
+    find_open(run);
+    if (!open_.empty()) {
+      settle(run, hits);
+      dice_run(run, diced);
+    }
+    parts_.push_back({run.primitive, points(run, 0), run.first});
   }
-  set_steps(n);
-  set_rays(rays, hits);
+  if (beside) {
+    find_footprints(rays, hits);
+    for (size_t i = 0; i < runs_.size(); ++i) // u_ and v_ have grown
+      parts_[i].at = points(runs_[i], 0);
+    dice_beside(diced);
+  }
+  dice_variables(parts_, context, diced, grid);
+  // A primitive that was moved in time is this grid's only.
+  grid.user = &scene.primitives[hits[0].place.primitive];
+  if (beside) {
+    stretch(read);
+    step_along_tangents();
+  }
+  set_steps();
+  set_rays(rays, hits, read);
 }
 
 /// Brings the neighbours, which were evaluated at another distance, to where they belong.
-void HitGrid::stretch(size_t n) {
+void HitGrid::stretch(const ReadVariables& read) {
+  const size_t n = hits_;
   auto planes = [&](const slvm::Planes& p) {
     if (!p.data || !p.step || p.type == slvm::Type::kString) return;
     size_t count = static_cast<size_t>(slvm::components(p.type)) * (p.elements ? p.elements : 1);
     for (size_t c = 0; c < count; ++c) {
-      float* x = p.data + c * p.pitch;
+      const float* x = p.data + c * p.pitch;
+      float *beside_u = p.data + c * p.pitch + n, *beside_v = beside_u + n;
       for (size_t i = 0; i < n; ++i) {
-        x[n + i] = x[i] + (x[n + i] - x[i]) * u_stretch_[i];
-        x[2 * n + i] = x[i] + (x[2 * n + i] - x[i]) * v_stretch_[i];
+        beside_u[i] = x[i] + (beside_u[i] - x[i]) * u_stretch_[i];
+        beside_v[i] = x[i] + (beside_v[i] - x[i]) * v_stretch_[i];
       }
     }
   };
-  for (int g = 0; g < slvm::kGlobalCount; ++g)
-    planes(grid.variable(static_cast<Global>(g)));
+  for (int g = 0; g < slvm::kGlobalCount; ++g) {
+    const auto global = static_cast<Global>(g);
+    const bool parameter = global == Global::ku || global == Global::kv; // their steps are asked for, too
+    if (global != Global::kP && (parameter || read.has_beside(global))) planes(grid.variable(global));
+  }
   for (const auto& [name, p] : grid.primvars())
-    planes(p);
+    if (!read.of_primitives_beside || read.of_primitives_beside(name)) planes(p);
 }
 
-void HitGrid::set_steps(size_t n) {
+void HitGrid::step_along_tangents() {
+  const size_t n = hits_, pitch = grid.pitch();
+  float* P = grid.varying(Global::kP);
+  for (const Run& run : runs_) {
+    const UvRect& whole = run.primitive->uv;
+    auto step = [&](Global tangent, float width, const std::vector<float>& at, const float* stretch,
+                    size_t row) {
+      const float *T = grid.variable(tangent).data, *from = at.data(), *to = from + row;
+      for (size_t c = 0; c < 3; ++c)
+        for (size_t i = run.first; i < run.first + run.count; ++i)
+          P[c * pitch + row + i] =
+              P[c * pitch + i] + T[c * pitch + i] * (width * stretch[i] * (to[i] - from[i]));
+    };
+    step(Global::kdPdu, whole.u1 - whole.u0, u_, u_stretch_.data(), n);
+    step(Global::kdPdv, whole.v1 - whole.v0, v_, v_stretch_.data(), 2 * n);
+  }
+}
+
+void HitGrid::set_steps() {
   if (!grid.derivatives) {
     for (Global g : {Global::kdu, Global::kdv})
       grid.set_uniform(g, {&kLeastStep, 1});
     return;
   }
+  const size_t n = hits_;
   for (bool along_u : {true, false}) {
     const float* from = grid.variable(along_u ? Global::ku : Global::kv).data;
-    float* to = grid.varying(along_u ? Global::kdu : Global::kdv);
+    float* to = grid.to_fill(along_u ? Global::kdu : Global::kdv);
     const float* beside = from + (along_u ? n : 2 * n);
     for (size_t i = 0; i < n; ++i) {
       const float step = beside[i] - from[i];
@@ -309,39 +368,49 @@ void HitGrid::set_steps(size_t n) {
   }
 }
 
-/// I, from where each point's ray starts.
-void HitGrid::aim() {
+/// I of the first points, from where their rays start.
+void HitGrid::aim(size_t points) {
   const size_t pitch = grid.pitch();
-  const float* P = grid.variable(Global::kP).data;
-  float* I = grid.varying(Global::kI);
-  for (size_t k = 0; k < grid.points(); ++k)
-    set_point(I, pitch, k, plane_point(P, pitch, k) - origins_[k]);
+  for (size_t c = 0; c < 3; ++c) {
+    const float *P = grid.variable(Global::kP).data + c * pitch, *from = origins_.planes[c].data();
+    float* I = grid.to_fill(Global::kI) + c * pitch;
+    for (size_t k = 0; k < points; ++k)
+      I[k] = P[k] - from[k];
+  }
 }
 
-/// I, E and weights. A neighbour has the origin of the ray that would hit it.
-void HitGrid::set_rays(const HitRays& rays, std::span<const HitRay> hits) {
-  size_t n = hits.size();
-  for (size_t i = 0; i < n && grid.derivatives; ++i) {
+/// A neighbour has the origin of the ray that would hit it.
+void HitGrid::find_origins(const HitRays& rays, std::span<const HitRay> hits) {
+  const size_t n = hits_;
+  origins_.resize(3 * n);
+  for (size_t i = 0; i < n; ++i) {
     const HitRay& hit = hits[i];
     float ux = footprint_[0][i], vx = footprint_[1][i], uy = footprint_[2][i], vy = footprint_[3][i];
     float determinant = ux * vy - uy * vx;
     bool usable = rays.wide() && std::abs(determinant) > 1e-6f;
     // One step along u is so many along x and y, by the inverse of the footprint.
     auto origin = [&](float x, float y) {
-      if (!usable) return origins_[i];
+      if (!usable) return origins_.get(i);
       Vec3 dx = rays.at(rays.batch.origin_du, hit), dy = rays.at(rays.batch.origin_dv, hit);
-      return origins_[i] + (dx * x + dy * y) / determinant;
+      return origins_.get(i) + (dx * x + dy * y) / determinant;
     };
-    origins_[n + i] = origin(vy, -vx);
-    origins_[2 * n + i] = origin(-uy, ux);
+    origins_.set(n + i, origin(vy, -vx));
+    origins_.set(2 * n + i, origin(-uy, ux));
   }
-  aim();
-  float eye[3] = {origins_[0].x, origins_[0].y, origins_[0].z};
+}
+
+/// I, E and weights.
+void HitGrid::set_rays(const HitRays& rays, std::span<const HitRay> hits, const ReadVariables& read) {
+  const bool beside = grid.derivatives && read.has_beside(Global::kI);
+  if (beside) find_origins(rays, hits);
+  aim(beside ? grid.points() : hits_);
+  const Vec3 from = origins_.get(0);
+  const float eye[3] = {from.x, from.y, from.z};
   grid.set_uniform(Global::kE, eye);
   for (int c = 0; c < 3 && !rays.weights.empty(); ++c) {
     auto& plane = weight_[static_cast<size_t>(c)];
-    plane.resize(n);
-    for (size_t i = 0; i < n; ++i)
+    plane.resize(hits_);
+    for (size_t i = 0; i < hits_; ++i)
       plane[i] = rays.weights[hits[i].ray][c];
     grid.ray.weight[c] = plane.data();
   }
@@ -363,7 +432,7 @@ void HitGrid::after_displacement(bool moved) {
         *Ng = grid.varying(Global::kNg);
   const slvm::Planes du = grid.variable(Global::kdu), dv = grid.variable(Global::kdv);
   float sign = grid.flip_normals ? -1.0f : 1.0f;
-  aim();
+  aim(grid.points());
   for (size_t k = 0; k < grid.points() && grid.derivatives; ++k) {
     size_t i = k % n;
     Vec3 at = plane_point(P, pitch, i);

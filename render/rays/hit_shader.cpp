@@ -9,7 +9,7 @@
 #include <bit>
 #include <map>
 #include <numeric>
-#include <unordered_map>
+#include <optional>
 
 namespace render {
 
@@ -146,8 +146,15 @@ struct HitShader::Worker {
   HitGrid hits;
   HitVolumes volumes;
   slvm::Grid lattice{2, 2};
-  std::vector<uint32_t> order, bucket_of; ///< of the hits of a batch
-  std::vector<HitRay> one_grid;           ///< those that are shaded now
+  std::vector<HitRay> in_order; ///< hits of a batch as they are shaded
+  // While they are sorted:
+  struct Bucket { ///< hits of one primitive
+    uint32_t primitive, group, first = 0, count = 0;
+  };
+  std::vector<Bucket> buckets;
+  std::vector<uint32_t> bucket_of; ///< by number of the hit
+  std::vector<uint32_t> table;     ///< buckets by a hash of their primitives, kNone where there is none
+  std::vector<uint32_t> in_groups; ///< buckets
 };
 
 class HitShader::WorkerLease {
@@ -200,7 +207,12 @@ struct HitShader::Work {
   bool beside = false;                ///< somebody differentiates
   bool done_beside = false;           ///< nobody differentiates what the surface shader leaves behind
   bool apart = false; ///< E is read: hits of rays from different places cannot be shaded together
-  ReadVariables read;
+  std::span<const slvm::RayOutput> outputs;
+  ReadVariables read; ///< refers to this
+
+  Work() = default;
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
 
   template <class F> bool any_shader(F&& f) const {
     for (const slvm::Instance* shader : {set.displacement, set.surface})
@@ -330,50 +342,57 @@ uint32_t HitShader::group_of(uint32_t primitive) {
 
 /// By group, then primitive, then ray; groups and primitives in the order of their first hits here, whatever
 /// their numbers.
-void HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
-  struct Bucket { // hits of one primitive
-    uint32_t group, first = 0, count = 0;
-  };
-  std::vector<Bucket> buckets;
-  std::vector<uint32_t>& bucket_of = worker.bucket_of;
+std::span<const HitRay> HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
+  constexpr uint32_t kNone = ~0u;
+  std::vector<Worker::Bucket>& buckets = worker.buckets;
+  std::vector<uint32_t>&bucket_of = worker.bucket_of, &table = worker.table;
+  buckets.clear();
   bucket_of.resize(hits.size());
+  const size_t places = std::bit_ceil(2 * hits.size());
+  table.assign(places, kNone);
+  auto find = [&](uint32_t primitive) {
+    size_t place = (primitive * 0x9e3779b9u) & (places - 1);
+    while (table[place] != kNone && buckets[table[place]].primitive != primitive)
+      place = (place + 1) & (places - 1);
+    if (table[place] == kNone) {
+      table[place] = static_cast<uint32_t>(buckets.size());
+      buckets.push_back({primitive, group_of(primitive)});
+    }
+    return table[place];
+  };
+  size_t groups = 0;
   {
-    std::unordered_map<uint32_t, uint32_t> of_primitive;
-    uint32_t last = 0, bucket = 0;
     std::lock_guard lock(groups_mutex_);
     for (size_t i = 0; i < hits.size(); ++i) {
       const uint32_t primitive = hits[i].place.primitive;
-      if (i == 0 || primitive != last) {
-        last = primitive;
-        auto [it, is_new] = of_primitive.try_emplace(primitive, static_cast<uint32_t>(buckets.size()));
-        bucket = it->second;
-        if (is_new) buckets.push_back({group_of(primitive)});
-      }
-      bucket_of[i] = bucket;
-      ++buckets[bucket].count;
+      const bool again = i > 0 && primitive == hits[i - 1].place.primitive;
+      bucket_of[i] = again ? bucket_of[i - 1] : find(primitive);
+      ++buckets[bucket_of[i]].count;
     }
+    groups = groups_->numbers.size();
   }
-  std::vector<uint32_t>& order = worker.order;
-  order.resize(hits.size());
-  if (buckets.size() == 1) {
-    std::iota(order.begin(), order.end(), 0u);
-    return;
-  }
-  std::vector<std::vector<uint32_t>> of_group;
-  std::unordered_map<uint32_t, size_t> number_of_group;
-  for (uint32_t k = 0; k < buckets.size(); ++k) {
-    size_t number = number_of_group.try_emplace(buckets[k].group, of_group.size()).first->second;
-    if (number == of_group.size()) of_group.emplace_back();
-    of_group[number].push_back(k);
-  }
+  if (buckets.size() == 1) return hits;
+  // Groups in the order of their first hits.
+  std::vector<uint32_t>& in_groups = worker.in_groups;
+  in_groups.resize(buckets.size());
+  std::iota(in_groups.begin(), in_groups.end(), 0u);
+  std::vector<uint32_t>& first_of = table; // first bucket of each group; numbers of groups begin at 1
+  first_of.assign(groups + 1, kNone);
+  for (uint32_t k = 0; k < buckets.size(); ++k)
+    if (first_of[buckets[k].group] == kNone) first_of[buckets[k].group] = k;
+  std::sort(in_groups.begin(), in_groups.end(), [&](uint32_t a, uint32_t b) {
+    return std::pair(first_of[buckets[a].group], a) < std::pair(first_of[buckets[b].group], b);
+  });
   uint32_t place = 0;
-  for (const auto& group : of_group)
-    for (uint32_t k : group) {
-      buckets[k].first = place;
-      place += buckets[k].count;
-    }
-  for (uint32_t i = 0; i < hits.size(); ++i)
-    order[buckets[bucket_of[i]].first++] = i;
+  for (uint32_t k : in_groups) {
+    buckets[k].first = place;
+    place += buckets[k].count;
+  }
+  std::vector<HitRay>& out = worker.in_order;
+  out.resize(hits.size());
+  for (size_t i = 0; i < hits.size(); ++i)
+    out[buckets[bucket_of[i]].first++] = hits[i];
+  return out;
 }
 
 std::vector<HitRay> HitShader::take_list() {
@@ -392,25 +411,22 @@ void HitShader::give_back(std::vector<HitRay> list) {
   lists_.push_back(std::move(list));
 }
 
-void HitShader::shade(std::span<const HitRay> hits, const HitBatch& batch,
+void HitShader::shade(std::span<const HitRay> all, const HitBatch& batch,
                       std::span<const slvm::RayOutput> outputs) {
-  if (hits.empty() || outputs.empty()) return;
+  if (all.empty() || outputs.empty()) return;
   Demand demand(outputs, batch.shades);
   WorkerLease lease(*this, false);
   Worker& worker = *lease;
-  sort(hits, worker);
-  Work work;
+  const std::span<const HitRay> hits = sort(all, worker);
+  std::optional<Work> work;
   uint32_t last = 0;
   size_t group_end = 0, most = 0;
-  auto at = [&](size_t i) -> const HitRay& { return hits[worker.order[i]]; };
-  auto group = [&](size_t i) { return group_[at(i).place.primitive]; };
+  auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
   auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
-    if (group(first) != last) {
-      last = group(first);
-      work = prepare(scene_.primitives[at(first).place.primitive], batch, outputs, demand);
-    }
     if (first == group_end) {
+      last = group(first);
+      prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand, work.emplace());
       while (group_end < hits.size() && group(group_end) == last)
         ++group_end;
       // Grids of about the same size, none of a few points.
@@ -418,15 +434,14 @@ void HitShader::shade(std::span<const HitRay> hits, const HitBatch& batch,
                    grids = std::max<size_t>((count + kHitsAGrid / 2) / kHitsAGrid, 1);
       most = (count + grids - 1) / grids;
     }
-    std::vector<HitRay>& one_grid = worker.one_grid;
-    one_grid.assign(1, at(first));
-    for (end = first + 1; end < group_end && end - first < most; ++end) {
-      const HitRay& hit = at(end);
-      if (work.apart && batch.rays.origin(hit) != batch.rays.origin(one_grid[0])) break;
-      if (demand.attributes && state(hit) != state(one_grid[0])) break;
-      one_grid.push_back(hit);
-    }
-    shade_grid(worker, one_grid, batch, outputs, demand, work,
+    end = std::min(first + most, group_end);
+    const HitRay& one = hits[first];
+    if (work->apart || demand.attributes)
+      for (size_t i = first + 1; i < end; ++i)
+        if ((work->apart && batch.rays.origin(hits[i]) != batch.rays.origin(one)) ||
+            (demand.attributes && state(hits[i]) != state(one)))
+          end = i;
+    shade_grid(worker, hits.subspan(first, end - first), batch, outputs, demand, *work,
                hash_of(static_cast<int64_t>(batch.seed), static_cast<int64_t>(first), kHits));
   }
 }
@@ -458,10 +473,10 @@ const slvm::Instance* HitShader::narrowed(const slvm::Instance* surface,
   return it->second ? it->second.get() : surface;
 }
 
-HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
-                                   std::span<const slvm::RayOutput> outputs, const Demand& demand) {
-  Work w;
+void HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
+                        std::span<const slvm::RayOutput> outputs, const Demand& demand, Work& w) {
   w.primitive = &primitive;
+  w.outputs = outputs;
   const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
   w.set = bound.shaders;
   if (photon_maps_ && batch.kind == slvm::RayKind::kDiffuse && batch.mode == slvm::HitMode::kDefault &&
@@ -481,12 +496,18 @@ HitShader::Work HitShader::prepare(const Primitive& primitive, const HitBatch& b
                                           [](auto* volume) { return differentiates(*volume); });
   w.apart = w.any_shader([](const slvm::Instance& shader) { return reads(shader, "E", false); });
   w.read.predefined = read_of_grids(w, bound, outputs);
-  w.read.of_primitives = [outputs, shaders = w](const std::string& name) {
-    return shaders.any_shader([&](const slvm::Instance& s) { return reads(s, name, true); }) ||
-           std::any_of(outputs.begin(), outputs.end(),
+  if (w.done_beside && w.set.surface && !w.set.displacement) {
+    const slvm::BesideReads& beside = w.set.surface->reads_beside();
+    w.read.predefined_beside = beside.predefined;
+    w.read.of_primitives_beside = [&beside](const std::string& name) {
+      return std::find(beside.parameters.begin(), beside.parameters.end(), name) != beside.parameters.end();
+    };
+  }
+  w.read.of_primitives = [&w](const std::string& name) {
+    return w.any_shader([&](const slvm::Instance& s) { return reads(s, name, true); }) ||
+           std::any_of(w.outputs.begin(), w.outputs.end(),
                        [&](const slvm::RayOutput& out) { return out.name == name; });
   };
-  return w;
 }
 
 bool HitShader::is_primitive_mode(const Primitive& p, const HitBatch& batch) const {

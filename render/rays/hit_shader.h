@@ -64,12 +64,12 @@ private:
   struct Demand;
   struct Work;
   uint32_t group_of(uint32_t primitive);
-  void sort(std::span<const HitRay> hits, Worker& worker);
+  std::span<const HitRay> sort(std::span<const HitRay> hits, Worker& worker);
   void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
                   std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
                   uint64_t id);
-  Work prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
-               const Demand& demand);
+  void prepare(const Primitive& primitive, const HitBatch& batch, std::span<const slvm::RayOutput> outputs,
+               const Demand& demand, Work& work);
   const slvm::Instance* narrowed(const slvm::Instance* surface, std::span<const slvm::RayOutput> outputs);
   static std::bitset<slvm::kGlobalCount> read_of_grids(const Work& work, const BoundAttributes& bound,
                                                        std::span<const slvm::RayOutput> outputs);

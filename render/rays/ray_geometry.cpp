@@ -97,20 +97,24 @@ size_t PartIndex::find(std::span<const ItemPart> parts, uint32_t face) const {
 }
 
 const Primitive& RayGeometry::primitive_of(const Item& item, uint32_t face) const {
-  return scene_.primitives[item.parts[item.part_index.find(item.parts, face)].primitive];
+  return scene_.primitives[part_of(item, face).primitive];
 }
 
-SurfacePlace RayGeometry::place(const RayHit& hit) const {
-  const Item& item = *items_[hit.item];
-  const ItemPart& part =
-      item.parts.size() == 1 ? item.parts[0] : item.parts[item.part_index.find(item.parts, hit.face)];
+uint32_t RayGeometry::primitive(const RayHit& hit) const {
+  return part_of(*items_[hit.item], hit.face).primitive;
+}
+
+SurfacePlace RayGeometry::place(const RayHit& hit) {
+  const ItemPart& part = part_of(*items_[hit.item], hit.face);
   const uint32_t face = hit.face - part.first_face, row = face >> part.log_u,
                  column = face & ((1u << part.log_u) - 1);
   auto parameter = [](uint32_t whole, float rest, uint8_t log) {
     const float face_size = std::bit_cast<float>((127u - log) << 23); // 2^-log
     return std::clamp((static_cast<float>(whole) + rest) * face_size, 0.0f, 1.0f);
   };
-  return {part.primitive, parameter(column, hit.u, part.log_u), parameter(row, hit.v, part.log_v),
+  const FaceScene* made = items_[items_[hit.item]->model]->ready.load(std::memory_order_acquire);
+  const Vec2 at = (made ? made : faces(hit.item))->on_patch(hit);
+  return {part.primitive, parameter(column, at.x, part.log_u), parameter(row, at.y, part.log_v),
           part.displaced};
 }
 

@@ -76,7 +76,10 @@ public:
   const RayWorld& world() const { return *world_; }
   const RayTraits& traits(uint32_t item) const { return items_[item]->traits; }
   size_t items() const { return items_.size(); }
-  SurfacePlace place(const RayHit& hit) const;
+  /// The primitive that a hit is on.
+  uint32_t primitive(const RayHit& hit) const;
+  /// To be called while `tracing`.
+  SurfacePlace place(const RayHit& hit);
   bool same_surface(uint32_t item, uint32_t face, uint32_t other) const override;
   std::vector<uint32_t> bounding(uint32_t item, const RayRule&, Vec3 origin,
                                  std::span<const RayCrossing> crossings) const override;
@@ -114,6 +117,9 @@ private:
     std::atomic<uint64_t> used{0};
   };
   class Gatherer;
+  static const ItemPart& part_of(const Item& item, uint32_t face) {
+    return item.parts.size() == 1 ? item.parts[0] : item.parts[item.part_index.find(item.parts, face)];
+  }
   const Primitive& primitive_of(const Item& item, uint32_t face) const;
 
   const FaceScene* faces(uint32_t item) override;

@@ -146,6 +146,18 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   if (!outputs.empty()) hits.reserve(batch.count);
   {
     auto tracing = g.tracing();
+    // Where hits lie is looked up for a few at a time: one look-up need not wait for another.
+    struct {
+      size_t ray;
+      float time;
+      RayHit hit;
+    } some[64];
+    size_t waiting = 0;
+    auto place_hits = [&] {
+      for (const auto& at : std::span(some, waiting))
+        hits.push_back(hit_ray(by, batch, at.ray, at.time, at.hit));
+      waiting = 0;
+    };
     for (size_t i = 0; i < batch.count; ++i) {
       if (!weight.empty() && by.too_light(weight[i])) {
         distance[i] = slvm::kNotShot;
@@ -158,8 +170,11 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
       distance[i] = found ? hit.distance : kInfinity;
       if (!found) continue;
       if (cursors) cursors[i] = {hit.distance, hit.item, hit.face};
-      if (!outputs.empty()) hits.push_back(hit_ray(by, batch, i, ray.time, hit));
+      if (outputs.empty()) continue;
+      some[waiting++] = {i, ray.time, hit};
+      if (waiting == std::size(some)) place_hits();
     }
+    place_hits();
   }
   rays_ += shot;
   g.trim();

@@ -95,6 +95,7 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
                              std::vector<LightPath>& paths) {
   std::vector<HitRay> to_shade, to_evaluate;
   std::vector<size_t> path_of; // by number of the hit
+  auto tracing = geometry_->tracing();
   for (size_t i = 0; i < paths.size(); ++i) {
     LightPath& path = paths[i];
     size_t end = std::min(path.layers.size(), path.next + kShadedAtATime);
@@ -104,7 +105,7 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
       if (opacity == RayOpacity::kTransparent) continue;
       if (opacity == RayOpacity::kOpaque) path.through = Color(0.0f);
       if (opacity == RayOpacity::kOs) {
-        const Primitive& p = scene_.primitives[geometry_->place(layer).primitive];
+        const Primitive& p = scene_.primitives[geometry_->primitive(layer)];
         if (const Color* constant = constant_opacity(p)) {
           path.through *= Color(1.0f) - *constant;
           continue;
@@ -116,6 +117,7 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
       (opacity == RayOpacity::kShader ? to_shade : to_evaluate).push_back(hit);
     }
   }
+  tracing.unlock();
   const std::vector<Color> weight = weights(by, batch);
   const HitRays rays{batch, weight};
   std::vector<float> values(3 * path_of.size());

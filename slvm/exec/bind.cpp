@@ -131,6 +131,7 @@ std::unique_ptr<const Program> compiled(const Program& program, ir::Module& modu
                                         const ir::ConstantEvaluator& evaluator) {
   ir::optimise(module, 2, &evaluator);
   if (ir::fuse_products(module)) ir::infer_detail(module);
+  if (program.kind == ShaderKind::kSurface) ir::derivatives_first(module);
   auto out = std::make_unique<Program>(program);
   out->ir.clear();
   ir::emit(module, *out);

@@ -56,10 +56,12 @@ struct Instance::Bound {
   /// What the instance was made with, of shaders that may be made again otherwise: lights and surfaces.
   std::vector<ParamValue> given;
   std::vector<std::string> may_vary;
-  uint32_t last_derivative = 0; ///< the shader's code from this word on reads no neighbouring points
-  bool emits = false;           ///< a light with illuminate or solar: not an ambient light
-  bool emits_once = false;      ///< one such block, outside loops: its L, Cl and Ol stay where they are
-  bool reads_messages = false;  ///< its results depend on other shaders' parameters
+  /// What the shader's code from this word on stores at neighbouring points nobody reads: derivatives behind
+  /// it are of what was computed before.
+  uint32_t neighbours_end = 0;
+  bool emits = false;          ///< a light with illuminate or solar: not an ambient light
+  bool emits_once = false;     ///< one such block, outside loops: its L, Cl and Ol stay where they are
+  bool reads_messages = false; ///< its results depend on other shaders' parameters
 };
 
 } // namespace slvm

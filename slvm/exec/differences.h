@@ -15,7 +15,8 @@ namespace slvm {
 class Differences {
 public:
   Differences(const GridCall& call)
-      : grid_(*call.run.state.grid), valid_(call.run.mask.at_level(call.level & ~kScatteredLevel)),
+      : grid_(*call.run.state.grid), points_(call.run.points),
+        valid_(call.run.mask.at_level(call.level & ~kScatteredLevel)),
         everywhere_(call.level == 0 || mask_all(valid_, call.run.points)),
         differ_(grid_.derivatives && !(call.level & kScatteredLevel && call.run.gathers.any_scattered())) {}
 
@@ -60,7 +61,7 @@ private:
   template <class F> void for_each_hit(bool along_u, F&& f) const {
     auto hits = static_cast<size_t>(grid_.nu());
     size_t beside = grid_.nv() == 3 ? (along_u ? hits : 2 * hits) : 0;
-    for (size_t lane = 0, hit = 0; lane < grid_.points(); ++lane, hit = hit + 1 == hits ? 0 : hit + 1) {
+    for (size_t lane = 0, hit = 0; lane < points_; ++lane, hit = hit + 1 == hits ? 0 : hit + 1) {
       bool both = grid_.derivatives && beside > 0 && holds(hit) && holds(hit + beside);
       f(both ? Run{lane, 1, hit, hit + beside, 1} : Run{lane, 1, lane, lane, 0});
     }
@@ -68,6 +69,7 @@ private:
   bool holds(size_t lane) const { return everywhere_ || mask_test(valid_, lane); }
 
   const Grid& grid_;
+  size_t points_; ///< that differences are wanted of: of hits, those with neighbours or without
   const MaskWord* valid_;
   bool everywhere_;
   bool differ_; ///< false: neighbours say nothing, all differences are 0

@@ -167,11 +167,11 @@ void ShaderRun::shoot_from_samples(const GridCall& call, GridOp op) {
   }
 }
 
-// Where no derivative follows, the points beside hits are done with, if nobody else wants them. A light is
-// part of the surface it shines on.
+// Where nothing more is computed that derivatives look at, the points beside hits are done with, if nobody
+// else wants them. A light is part of the surface it shines on.
 void ShaderRun::leave_neighbours(Frame& f, MaskStack& m, uint32_t pc) {
   const size_t samples = state.grid->samples();
-  if (!state.grid->neighbours_end || !in_body_ || points == samples || pc < bound.last_derivative ||
+  if (!state.grid->neighbours_end || !in_body_ || points == samples || pc < bound.neighbours_end ||
       m.depth() > 0 || (outer && outer->points != samples))
     return;
   points = samples;
@@ -283,10 +283,12 @@ template <bool kObserved> void ShaderRun::execute_code(Frame& f, MaskStack& m, u
       if (!state.observer->before({*this, f, m, at})) continue;
     if (opcode >= kFirstShadeop) {
       Kernel kernel = imports[opcode - kFirstShadeop].kernel;
-      if (kernel && f.resolved)
+      if (kernel && f.resolved) {
         call_kernel(f, kernel, f.resolved + (w - code), count);
-      else
+      } else {
+        if (!f.resolved) leave_neighbours(f, m, at);
         call(f, at, static_cast<uint16_t>(opcode - kFirstShadeop), {w, count});
+      }
       if constexpr (kObserved) state.observer->after({*this, f, m, at});
       continue;
     }

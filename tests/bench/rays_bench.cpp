@@ -2,7 +2,9 @@
 // in turn in one process, on one thread; results are compared before anything is timed. Usage: rays_bench
 // [test | shade [rounds [name]]]: "test" compares only, "shade" leaves out Embree; only cases whose names
 // hold `name`.
+#include "render/texture/image_file.h"
 #include "slvm/format/slo.h"
+#include "tests/bench/scratch_file.h"
 #include "tests/render/rays/ray_scene.h"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -57,7 +59,7 @@ std::string balls() {
 
 /// Rays of ambient occlusion: from points of the floor and the balls, by cosine about their normals.
 struct Rays {
-  std::vector<float> origin[3], direction[3];
+  std::vector<float> origin[3], direction[3], direction_du[3], direction_dv[3], still;
   std::vector<uint32_t> point, sample;
 
   void add(Vec3 p, Vec3 n, int samples, std::mt19937& random) {
@@ -76,13 +78,30 @@ struct Rays {
       sample.push_back(static_cast<uint32_t>(i));
     }
   }
+  /// Gives them widths: neighbours are so far aside, at the distance 1.
+  void widen(float by) {
+    still.assign(size(), 0.0f);
+    for (size_t i = 0; i < size(); ++i) {
+      const Vec3 d(direction[0][i], direction[1][i], direction[2][i]);
+      const Vec3 x = glm::normalize(glm::cross(d, std::abs(d.x) < 0.5f ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+      const Vec3 y = glm::cross(d, x);
+      for (int c = 0; c < 3; ++c) {
+        direction_du[c].push_back(by * x[c]);
+        direction_dv[c].push_back(by * y[c]);
+      }
+    }
+  }
   size_t size() const { return point.size(); }
-  slvm::RayBatch batch(size_t first) const {
+  slvm::RayBatch batch(size_t first, size_t count) const {
     slvm::RayBatch b;
-    b.count = std::min(kBatch, size() - first);
+    b.count = std::min(count, size() - first);
     for (int c = 0; c < 3; ++c) {
       b.origin[c] = origin[c].data() + first;
       b.direction[c] = direction[c].data() + first;
+      if (still.empty()) continue;
+      b.origin_du[c] = b.origin_dv[c] = still.data() + first;
+      b.direction_du[c] = direction_du[c].data() + first;
+      b.direction_dv[c] = direction_dv[c].data() + first;
     }
     b.point = point.data() + first;
     b.sample = sample.data() + first;
@@ -166,15 +185,15 @@ private:
 };
 
 void trace(RayScene& s, const Rays& rays, const slvm::ShadingState& state, std::span<slvm::RayOutput> outputs,
-           std::vector<float>& distance) {
+           std::vector<float>& distance, size_t at_a_time = kBatch) {
   slvm::RayOptions options;
   options.kind = slvm::RayKind::kDiffuse;
   options.shades = !outputs.empty();
   std::vector<slvm::RayOutput> here(outputs.begin(), outputs.end());
-  for (size_t first = 0; first < rays.size(); first += kBatch) {
+  for (size_t first = 0; first < rays.size(); first += at_a_time) {
     for (size_t k = 0; k < here.size(); ++k)
       here[k].data = outputs[k].data + first;
-    s.tracer().trace(state, options, rays.batch(first), here, &distance[first], nullptr);
+    s.tracer().trace(state, options, rays.batch(first, at_a_time), here, &distance[first], nullptr);
   }
 }
 
@@ -227,11 +246,26 @@ constexpr const char* kSpot =
     "Cl = intensity * atten * smoothstep(cos(cone), cos(cone - delta), c); } }";
 
 struct ShadedScene {
-  const char *name, *rib;
-  std::string shader;
+  const char* name;
+  std::string rib, shader;
   int balls;
-  bool differ = false; ///< not all have the same shader
+  bool differ = false;       ///< not all have the same shader
+  size_t at_a_time = kBatch; ///< rays
 };
+
+/// A picture to look up.
+std::string write_texture(const bench::ScratchFile& to) {
+  constexpr int kSide = 512;
+  render::ImageFile file;
+  file.path = to.path();
+  file.format = "tiff";
+  file.width = file.height = file.full_width = file.full_height = kSide;
+  file.channels = {"R", "G", "B"};
+  std::mt19937 random(5);
+  for (int i = 0; i < 3 * kSide * kSide; ++i)
+    file.pixels.push_back(static_cast<std::byte>(random() & 255));
+  return render::write_image_file(file);
+}
 
 /// Rays from beside the eye to the balls, those of one grid's points one after the other.
 Rays rays_to_balls(const ShadedScene& scene) {
@@ -264,6 +298,7 @@ void compare_with_grid(const ShadedScene& scene, int rounds) {
                      i % 16 - 7.5, i / 16 - 7.5);
   RayScene s(rib + "WorldEnd", {{"shiny", scene.shader}, {"spot", kSpot}});
   Rays rays = rays_to_balls(scene);
+  rays.widen(0.005f); // about as far apart as the points of the dense grids
   slvm::ShadingState state = (s.asking_grid(1, 1, 0), s.state());
   std::vector<float> distance(rays.size()), colour(3 * rays.size());
   slvm::RayOutput Ci = RayScene::output(slvm::RayOutput::From::kSurface, "Ci", slvm::Type::kColor);
@@ -288,8 +323,8 @@ void compare_with_grid(const ShadedScene& scene, int rounds) {
   };
   std::vector<double> with, without, dense, shading, whole;
   for (int i = 0; i < rounds; ++i) {
-    with.push_back(seconds_of([&] { trace(s, rays, state, {&Ci, 1}, distance); }));
-    without.push_back(seconds_of([&] { trace(s, rays, state, {}, distance); }));
+    with.push_back(seconds_of([&] { trace(s, rays, state, {&Ci, 1}, distance, scene.at_a_time); }));
+    without.push_back(seconds_of([&] { trace(s, rays, state, {}, distance, scene.at_a_time); }));
     dense.push_back(seconds_of(shade_dense));
     shading.push_back((with.back() - without.back()) / dense.back());
     whole.push_back(with.back() / (without.back() + dense.back()));
@@ -304,15 +339,30 @@ void compare_with_grid(const ShadedScene& scene, int rounds) {
 }
 
 void compare_with_grids(int rounds, const std::string& name) {
-  std::string slopes = kShiny;
-  slopes.insert(slopes.find("Oi = Os"), "n *= 1 + .001 * Du(n) * du;");
+  auto with = [](const std::string& statement) {
+    std::string shader = kShiny;
+    return shader.insert(shader.find("Oi = Os"), statement);
+  };
+  const bench::ScratchFile picture("rays_bench.tif");
+  if (std::string problem = write_texture(picture); !problem.empty()) fmt::print("{}\n", problem);
+  auto texture = [&](const std::string& at) {
+    return with("n *= float texture(\"" + picture.path() + "\", " + at + ");");
+  };
   const char* lit = "LightSource \"spot\" 1 \"from\" [4 4 0] \"to\" [0 0 5] LightSource \"spot\" 2 \"from\" "
                     "[-4 4 0] \"to\" [0 0 5] LightSource \"spot\" 3 \"from\" [0 -4 0] \"to\" [0 0 5]";
-  for (const ShadedScene& scene : {ShadedScene{"noise without derivatives", "", kShiny, 1},
-                                   {"noise with derivatives (three points a hit)", "", slopes, 1},
-                                   {"three lights", lit, kPlastic, 1},
-                                   {"three lights, 256 balls", lit, kPlastic, 256},
-                                   {"three lights, 256 balls, 8 shaders", lit, kPlastic, 256, true}})
+  for (const ShadedScene& scene :
+       {ShadedScene{"noise without derivatives", "", kShiny, 1},
+        {"noise with derivatives (three points a hit)", "", with("n *= 1 + .001 * Du(n) * du;"), 1},
+        {"noise and a texture at s and t", "", texture("4 * s, 2 * t"), 1},
+        {"noise and a texture by reflection", "",
+         with("vector R = reflect(normalize(I), normalize(N));"
+              "n *= float texture(\"" +
+              picture.path() + "\", xcomp(R), ycomp(R));"),
+         1},
+        {"three lights", lit, kPlastic, 1},
+        {"three lights, 256 balls", lit, kPlastic, 256},
+        {"three lights, 256 balls, 8 shaders", lit, kPlastic, 256, true},
+        {"the same, 256 rays at a time", lit, kPlastic, 256, true, 256}})
     if (std::string(scene.name).find(name) != std::string::npos) compare_with_grid(scene, rounds);
 }
 

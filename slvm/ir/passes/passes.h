@@ -43,6 +43,10 @@ bool merge_light_loops(Module&);
 /// Turns small ifs without effects into selections of both sides' values.
 bool select_small_ifs(Module&);
 
+/// Puts what derivatives are taken of in front, and behind that the derivatives: at hits of rays only this
+/// part runs for the points beside them. Once, at the end; false: nothing has changed.
+bool derivatives_first(Module&);
+
 /// Computes sums of products in one instruction. Just before emission: other passes, those of bind-time
 /// specialisation too, know no fused ones.
 bool fuse_products(Module&);

@@ -372,6 +372,42 @@ TEST(Trace, rays_that_weigh_too_little_are_not_shot) {
   EXPECT_EQ(s.distance({{0.1f, 0.1f, 0}}), slvm::kNotShot);
 }
 
+TEST(Trace, rays_that_are_not_shot_leave_others_their_hits) {
+  RayScene s("Option \"trace\" \"float minweight\" 0.1 " + world("Translate 0 0 4 Disk 0 9 360"));
+  s.asking_grid();
+  constexpr size_t kRays = 150;                 // more than are looked up together
+  for (size_t last : {kRays - 1, size_t{70}}) { // the last one that is shot
+    std::vector<float> zero(kRays, 0.0f), one(kRays, 1.0f), x(kRays), weight(kRays, 0.01f),
+        depth(kRays, -1.0f), distance(kRays);
+    std::vector<uint32_t> number(kRays);
+    for (size_t i = 0; i < kRays; ++i) {
+      x[i] = 0.01f * static_cast<float>(i);
+      number[i] = static_cast<uint32_t>(i);
+      if (i <= last && i % 3 != 1) weight[i] = 1;
+    }
+    slvm::RayBatch batch;
+    batch.count = kRays;
+    batch.origin[0] = x.data();
+    batch.origin[1] = batch.origin[2] = batch.direction[0] = batch.direction[1] = zero.data();
+    batch.direction[2] = one.data();
+    for (auto& w : batch.weight)
+      w = weight.data();
+    batch.sample = number.data();
+    std::vector<uint32_t> point(kRays, 0);
+    batch.point = point.data();
+    std::vector<float> P(3 * kRays, -1.0f);
+    slvm::RayOutput out = RayScene::output(slvm::RayOutput::From::kPrimitive, "P", Type::kPoint);
+    out.data = P.data();
+    out.pitch = kRays;
+    s.tracer().trace(s.state(), {}, batch, {&out, 1}, distance.data(), nullptr);
+    for (size_t i = 0; i < kRays; ++i) {
+      const bool shot = weight[i] == 1;
+      EXPECT_NEAR(distance[i], shot ? 4 : slvm::kNotShot, 1e-5f) << i;
+      EXPECT_NEAR(P[i], shot ? x[i] : -1, 1e-3f) << i;
+    }
+  }
+}
+
 TEST(Trace, cursors_find_one_surface_after_the_other) {
   // Cards, two of them in the same place; and rays through the edges between faces.
   RayScene two(world("Translate 0 0 2 Disk 0 3 360 Disk 2 3 360 Disk 2 3 360 Disk 5 3 360")),

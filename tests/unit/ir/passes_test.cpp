@@ -408,6 +408,50 @@ TEST(FuseProducts, NotWhereOthersNeedTheProductOrItComesFromOutside) {
   EXPECT_FALSE(fuse_products(m));
 }
 
+TEST(DerivativesFirst, BehindWhatTheyAreOfAndInFrontOfTheRest) {
+  Sketch s;
+  ValueId rest = s.multiply(s.read("t"), s.read("t"));
+  ValueId slope = s.b.call("Du", "float(float x)", {s.multiply(s.read("s"), s.read("s"))});
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.add(rest, slope)}));
+  Module m = s.finish();
+  EXPECT_TRUE(derivatives_first(m));
+  EXPECT_EQ(body(m), "  %0: float = slot s\n  %1: float = slot s\n  %2: float = call operator* %1, %0\n"
+                     "  %3: float = call Du %2\n  %4: float = slot t\n  %5: float = slot t\n"
+                     "  %6: float = call operator* %5, %4\n  %7: float = call operator+ %6, %3\n"
+                     "  %8: color = call convert %7\n  store Ci %8\n  yield\n");
+  EXPECT_FALSE(derivatives_first(m));
+}
+
+TEST(DerivativesFirst, StoresGoWithWhatReadsThem) {
+  Sketch s;
+  ValueId rest = s.multiply(s.read("t"), s.read("t"));
+  s.store("P", s.read("E"));
+  ValueId n = s.b.call("calculatenormal", "normal(point p)", {s.read("P")});
+  s.store("N", n);
+  s.store("Ci", s.b.call("convert", "color(float x)", {rest}));
+  Module m = s.finish();
+  EXPECT_TRUE(derivatives_first(m));
+  EXPECT_EQ(body(m), "  %0: point = slot E\n  store P %0\n  %1: point = slot P\n"
+                     "  %2: normal = call calculatenormal %1\n  %3: float = slot t\n  %4: float = slot t\n"
+                     "  %5: float = call operator* %4, %3\n  store N %2\n  %6: color = call convert %5\n"
+                     "  store Ci %6\n  yield\n");
+}
+
+TEST(DerivativesFirst, RegionsWithDerivativesAsAWhole) {
+  Sketch s;
+  ValueId rest = s.multiply(s.read("t"), s.read("t"));
+  ValueId inside = s.multiply(s.read("s"), s.read("s"));
+  auto x = s.branch(
+      s.less(s.read("u"), s.read("v")), {Type::kFloat},
+      [&] { s.b.yield({s.b.call("Du", "float(float x)", {inside})}); }, [&] { s.b.yield({s.read("u")}); });
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.add(rest, x[0])}));
+  Module m = s.finish();
+  EXPECT_TRUE(derivatives_first(m));
+  const std::string text = body(m);
+  EXPECT_LT(text.find("slot s"), text.find(" if ")) << text;
+  EXPECT_LT(text.find(" if "), text.find("slot t")) << text;
+}
+
 TEST(Canonicalise, WhatPrintsOnceIsSettledBeforeAnyOtherPass) {
   Sketch s;
   for (ValueId x : {s.number(1), s.read("s")}) {

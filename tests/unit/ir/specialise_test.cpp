@@ -37,5 +37,35 @@ TEST(Specialise, IgnoresTheIrOfAnotherShader) {
   EXPECT_EQ(bind(program)->program().code, program.code);
 }
 
+TEST(Instance, SaysWhatItsDerivativesDependOn) {
+  ir::Sketch s;
+  ir::ValueId rest = s.multiply(s.read("u"), s.b.slot(s.param("rest", Type::kFloat, {1}, true)));
+  ir::ValueId slope = s.b.call("Du", "float(float x)",
+                               {s.multiply(s.read("v"), s.b.slot(s.param("near", Type::kFloat, {1}, true)))});
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.add(rest, slope)}));
+  auto instance = bind(ir::compile(s.finish()));
+  const BesideReads& beside = instance->reads_beside();
+  auto reads = [&](Global g) { return beside.predefined[static_cast<size_t>(g)]; };
+  EXPECT_TRUE(reads(Global::kv));
+  EXPECT_FALSE(reads(Global::ku));
+  EXPECT_FALSE(reads(Global::kN));
+  EXPECT_EQ(beside.parameters, std::vector<std::string>{"near"});
+}
+
+TEST(Instance, DerivativesOfLightDependOnAllThatLightsRead) {
+  ir::Sketch s;
+  ir::ValueId light =
+      s.b.call("comp", "float(color c, float i)", {s.b.call("ambient", "color()", {}), s.number(0)});
+  s.store("Ci", s.b.call("convert", "color(float x)", {s.b.call("Du", "float(float x)", {light})}));
+  auto instance = bind(ir::compile(s.finish()));
+  EXPECT_TRUE(instance->reads_beside().predefined.all());
+}
+
+TEST(Instance, WithoutDerivativesReadsNothingBeside) {
+  auto instance = bind(ir::compile(ir::arithmetic()));
+  EXPECT_TRUE(instance->reads_beside().predefined.none());
+  EXPECT_TRUE(instance->reads_beside().parameters.empty());
+}
+
 } // namespace
 } // namespace slvm
