@@ -2,6 +2,7 @@
 #include "render/hider/sample_buffer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace render {
@@ -196,6 +197,18 @@ void SampleBuffer::add_lens(const Box& shift, Box& box) const {
   box.max += glm::max(glm::max(shift.min * a, shift.max * a), glm::max(shift.min * b, shift.max * b));
 }
 
+namespace {
+
+/// Whether a box of the raster touches but a few pixels, in this bucket or in others: pictures must not
+/// depend on buckets.
+bool stays_near(const Box& box) {
+  constexpr float kPixels = 16;
+  auto touched = [](float from, float to) { return std::floor(to) - std::floor(from) + 1; };
+  return touched(box.min.x, box.max.x) * touched(box.min.y, box.max.y) <= kPixels;
+}
+
+} // namespace
+
 /// For each stratum of time and lens only the pixels are looked at that the micropolygon reaches in it, and
 /// there the one sample that belongs to the stratum.
 void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
@@ -212,7 +225,10 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
   if (!find_window(Vec2(everywhere.min) - origin_ - kSlack, Vec2(everywhere.max) - origin_ + kSlack,
                    covered_.width(), covered_.height(), window))
     return;
-  if (draw_slow(grid, k, window)) return;
+  if (stays_near(everywhere)) {
+    draw_slow(grid, k);
+    return;
+  }
   auto n = static_cast<float>(pattern_.strata());
   for (int s = 0; s < pattern_.strata(); ++s) {
     float end = static_cast<float>(s + 1) / n;
@@ -235,9 +251,7 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
 }
 
 /// What stays within a few pixels: all their samples are looked at together.
-bool SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k, const SampleWindow& pixels) {
-  constexpr size_t kFew = 16;
-  if (pixels.count() > kFew) return false;
+void SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k) {
   const auto nu = static_cast<size_t>(grid.nu);
   const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
   MovingQuad quad;
@@ -264,7 +278,6 @@ bool SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k, const SampleWindo
     make_room(samples);
     hit_all(grid, k, slow_hits(quad, grid.solid != nullptr, field(grid), samples, hits_.data()));
   }
-  return true;
 }
 
 void SampleBuffer::draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum) {

@@ -69,7 +69,7 @@ private:
   void make_layers();
   void draw_micropolygon(const ShadedGrid& grid, size_t k);
   void draw_moving(const ShadedGrid& grid, size_t k);
-  bool draw_slow(const ShadedGrid& grid, size_t k, const SampleWindow& pixels);
+  void draw_slow(const ShadedGrid& grid, size_t k);
   void draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum);
   void add_lens(const Box& shift, Box& box) const;
   SampleField field(const ShadedGrid& grid) const;

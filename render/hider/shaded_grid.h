@@ -2,10 +2,10 @@
 #pragma once
 
 #include "render/hider/image.h"
-#include "render/state/vec3_planes.h"
 #include "render/prims/primitive.h"
 #include "render/prims/stitch.h"
 #include "render/shading/grid_shader.h"
+#include "render/state/vec3_planes.h"
 
 #include <cstdint>
 #include <span>
