@@ -189,11 +189,13 @@ std::string function_entry(std::string_view name) {
   if (flags & kSurfaceOnly) out += "Not in light shaders.\n\n";
   if (flags & kDerivative) out += "Looks at neighbouring points of the grid.\n\n";
   if (!pending.empty() && pending.size() < rows)
-    out += fmt::format("This form compiles, but this version cannot carry it out: in pictures it gives 0, with a warning; "
-                       "elsewhere binding a shader that calls it is an error:\n\n{}\n",
-                       declarations(pending));
+    out += fmt::format(
+        "This form compiles, but this version cannot carry it out: in pictures it gives 0, with a warning; "
+        "elsewhere binding a shader that calls it is an error:\n\n{}\n",
+        declarations(pending));
   else if (!pending.empty())
-    out += "*Compiles, but this version cannot carry it out: in pictures it gives 0, with a warning; elsewhere binding a "
+    out += "*Compiles, but this version cannot carry it out: in pictures it gives 0, with a warning; "
+           "elsewhere binding a "
            "shader that calls it is an error.*\n\n";
   for (std::string_view set : token_sets)
     out += token_table(set);

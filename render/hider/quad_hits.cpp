@@ -91,7 +91,8 @@ size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const
 class MovingFinder {
 public:
   HWY_INLINE MovingFinder(const MovingQuad& q, bool both, const SampleField& field, QuadHit* hits)
-      : finder_(both, field.limit, hits), box_(q.low, q.high), q_(q), focus_(field.focus) {
+      : finder_(both, field.limit, hits), box_(q.low, q.high), q_(q),
+        lens_(reinterpret_cast<const float*>(field.lens)), focus_(field.focus) {
     const float rate = 1 / (q.t1 - q.t0);
     for (size_t c = 0; c < 4; ++c)
       speed_[c] = (q.to[c] - q.from[c]) * rate;
@@ -100,11 +101,15 @@ public:
 
   /// Those of `looked_at` that the box around all of the motion holds.
   HWY_INLINE M near(const WideVec2& at, M looked_at) const { return hn::And(box_.contains(at), looked_at); }
-  /// `shift`: of what has a defocus of 1; null: no lens.
-  HWY_INLINE void look(const WideVec2& at, V time, const WideVec2* shift, M looked_at, I samples) {
+  HWY_INLINE void look(const WideVec2& at, V time, M looked_at, I samples) {
     const V t0 = hn::Set(kWide, q_.t0), one = hn::Set(kWide, 1.0f), focus = hn::Set(kWide, focus_);
     looked_at = hn::And(looked_at, hn::And(hn::Ge(time, t0), hn::Lt(time, hn::Set(kWide, q_.t1))));
     time = hn::Sub(time, t0);
+    WideVec2 shift{hn::Zero(kWide), hn::Zero(kWide)}; // of what has a defocus of 1
+    if (lens_) {
+      const I pairs = hn::ShiftLeft<1>(samples);
+      shift = {hn::GatherIndex(kWide, lens_, pairs), hn::GatherIndex(kWide, lens_ + 1, pairs)};
+    }
     WideQuad quad;
     for (size_t c = 0; c < 4; ++c) {
       const Vec3 from = q_.from[c], speed = speed_[c];
@@ -112,10 +117,10 @@ public:
       p = {hn::Add(hn::Set(kWide, from.x), hn::Mul(hn::Set(kWide, speed.x), time)),
            hn::Add(hn::Set(kWide, from.y), hn::Mul(hn::Set(kWide, speed.y), time))};
       quad.z[c] = hn::Add(hn::Set(kWide, from.z), hn::Mul(hn::Set(kWide, speed.z), time));
-      if (!shift) continue;
+      if (!lens_) continue;
       const V defocus = hn::Sub(focus, hn::Div(one, quad.z[c]));
-      p.x = hn::Add(p.x, hn::Mul(shift->x, defocus));
-      p.y = hn::Add(p.y, hn::Mul(shift->y, defocus));
+      p.x = hn::Add(p.x, hn::Mul(shift.x, defocus));
+      p.y = hn::Add(p.y, hn::Mul(shift.y, defocus));
     }
     finder_.add(quad, quad.cover(at, looked_at), samples);
   }
@@ -124,28 +129,21 @@ private:
   Finder finder_;
   WideBox box_;
   const MovingQuad& q_;
+  const float* lens_; ///< null: none
   Vec3 speed_[4];
   float focus_;
 };
 
 size_t find_moving(const MovingQuad& q, bool both, const SampleField& field, const uint32_t* order,
                    size_t columns, const SampleWindow& window, QuadHit* hits) {
-  const auto* lens = reinterpret_cast<const float*>(field.lens);
   MovingFinder finder(q, both, field, hits);
   for (size_t j = window.j0; j < window.j1; ++j)
     for (size_t i = window.i0; i < window.i1; i += hn::Lanes(kWide)) {
-      I samples = hn::LoadU(kIndices, reinterpret_cast<const int32_t*>(order) + j * columns + i);
-      WideVec2 at{hn::GatherIndex(kWide, field.x, samples), hn::GatherIndex(kWide, field.y, samples)};
+      const I samples = hn::LoadU(kIndices, reinterpret_cast<const int32_t*>(order) + j * columns + i);
+      const WideVec2 at{hn::GatherIndex(kWide, field.x, samples), hn::GatherIndex(kWide, field.y, samples)};
       const M looked_at = finder.near(at, hn::FirstN(kWide, window.i1 - i));
-      if (hn::AllFalse(kWide, looked_at)) continue;
-      const V time = hn::GatherIndex(kWide, field.time, samples);
-      if (lens) {
-        I pairs = hn::ShiftLeft<1>(samples);
-        const WideVec2 shift{hn::GatherIndex(kWide, lens, pairs), hn::GatherIndex(kWide, lens + 1, pairs)};
-        finder.look(at, time, &shift, looked_at, samples);
-      } else {
-        finder.look(at, time, nullptr, looked_at, samples);
-      }
+      if (!hn::AllFalse(kWide, looked_at))
+        finder.look(at, hn::GatherIndex(kWide, field.time, samples), looked_at, samples);
     }
   return finder.count();
 }
@@ -156,17 +154,7 @@ size_t find_slow(const MovingQuad& q, bool both, const SampleField& field, const
   for_window(field.width, window, [&](const auto& rows, M in_window) HWY_ATTR {
     const WideVec2 at{rows.load(field.x), rows.load(field.y)};
     const M looked_at = finder.near(at, in_window);
-    if (hn::AllFalse(kWide, looked_at)) return;
-    const V time = rows.load(field.time);
-    const I samples = rows.numbers();
-    if (field.lens) {
-      const auto* lens = reinterpret_cast<const float*>(field.lens);
-      I pairs = hn::ShiftLeft<1>(samples);
-      const WideVec2 shift{hn::GatherIndex(kWide, lens, pairs), hn::GatherIndex(kWide, lens + 1, pairs)};
-      finder.look(at, time, &shift, looked_at, samples);
-    } else {
-      finder.look(at, time, nullptr, looked_at, samples);
-    }
+    if (!hn::AllFalse(kWide, looked_at)) finder.look(at, rows.load(field.time), looked_at, rows.numbers());
   });
   return finder.count();
 }

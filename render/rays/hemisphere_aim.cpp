@@ -118,7 +118,7 @@ void HemisphereAim::draw(const HemispherePoint& point, uint64_t seed, size_t fir
   auto numbers = [&](SampleUse use, const uint32_t* bits, size_t how_many, std::vector<float>& out) {
     out.resize(how_many);
     kScramble(bits, how_many, offset.bits[static_cast<size_t>(use)],
-                 slvm::scramble_seed(static_cast<uint32_t>(seed ^ seed >> 32), use), out.data());
+              slvm::scramble_seed(static_cast<uint32_t>(seed ^ seed >> 32), use), out.data());
   };
   numbers(SampleUse::kRadius, bits_of(SampleUse::kRadius), count, radius_);
   numbers(SampleUse::kTurn, bits_of(SampleUse::kTurn), count, turn_);
@@ -193,7 +193,7 @@ void HemisphereAim::finish(const HemispherePoint& point) {
   Vec3 x, y;
   basis_about(point.N, x, y);
   kAim(radius_.data(), turn_.data(), count, CosineOfRadius(point.cone, cosine_weighted_), x, y, point.N,
-          direction[0].data(), direction[1].data(), direction[2].data());
+       direction[0].data(), direction[1].data(), direction[2].data());
   for (int c = 0; c < 3; ++c) {
     float* to = origin[c].data();
     const float middle = point.P[c], u = point.base * point.along_u[c], v = point.base * point.along_v[c];
