@@ -55,22 +55,31 @@ function(sl_library name)
   target_link_libraries(${name} PUBLIC ${arg_PUBLIC} PRIVATE $<BUILD_INTERFACE:anemone_flags> ${arg_PRIVATE})
 endfunction()
 
-# sl_archived(OUT "shared libraries" names...): what a library links to get these, or, in programs with the property
-# SL_ARCHIVED, the archives of those names. Where one is missing all get the shared libraries.
+# sl_archived(OUT "shared libraries" names...): what a library links to get these. Programs with the property SL_ARCHIVED
+# take the archives of those names first, and of the shared libraries only what these leave open: fewer are loaded at
+# each start. Where an archive is missing, or needs more than is named, all get the shared libraries.
+include(CheckCXXSourceCompiles)
 function(sl_archived out shared)
-  set(archived "$<BOOL:$<TARGET_PROPERTY:SL_ARCHIVED>>")
+  set(${out} ${shared} PARENT_SCOPE)
   foreach(name ${ARGN})
     find_library(ANEMONE_ARCHIVE_${name} NAMES lib${name}.a)
     if(NOT ANEMONE_ARCHIVE_${name})
-      set(${out} ${shared} PARENT_SCOPE)
       return()
     endif()
-    list(APPEND libraries "$<${archived}:${ANEMONE_ARCHIVE_${name}}>")
+    list(APPEND archives "${ANEMONE_ARCHIVE_${name}}")
   endforeach()
-  foreach(name ${shared})
-    list(APPEND libraries "$<$<NOT:${archived}>:${name}>")
+  list(GET archives 0 whole)
+  set(CMAKE_REQUIRED_LIBRARIES "-Wl,--whole-archive" ${whole} "-Wl,--no-whole-archive" ${archives} ${shared})
+  list(GET ARGN 0 first)
+  check_cxx_source_compiles("int main() { return 0; }" ANEMONE_ARCHIVED_${first})
+  if(NOT ANEMONE_ARCHIVED_${first})
+    return()
+  endif()
+  set(archived "$<BOOL:$<TARGET_PROPERTY:SL_ARCHIVED>>")
+  foreach(library ${archives} "-Wl,--as-needed")
+    list(APPEND libraries "$<${archived}:${library}>")
   endforeach()
-  set(${out} ${libraries} PARENT_SCOPE)
+  set(${out} ${libraries} ${shared} PARENT_SCOPE)
 endfunction()
 
 # All programs that are installed, without tests and benchmarks.

@@ -61,10 +61,10 @@ void Writer::describe(ImageFile& file, const std::vector<FileChannel>& channels)
 }
 
 /// `count` values of a channel, `from_step` and `to_step` apart.
-template <class T>
-void pack_channel(const float* from, size_t from_step, T* to, size_t to_step, size_t count) {
+template <class From, class To>
+void pack_channel(const From* from, size_t from_step, To* to, size_t to_step, size_t count) {
   for (size_t k = 0; k < count; ++k)
-    to[k * to_step] = static_cast<T>(from[k * from_step]);
+    to[k * to_step] = static_cast<To>(from[k * from_step]);
 }
 
 template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileChannel>& channels) const {
@@ -96,8 +96,7 @@ template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileCha
         whole[k] = quantize.bits(hashes[k]);
       for (size_t k = 0; k < width; ++k)
         whole[k] = quantize(values[k], whole[k]);
-      for (size_t k = 0; k < width; ++k)
-        row[k * channels.size() + c] = static_cast<T>(whole[k]);
+      pack_channel(whole.data(), 1, row + c, channels.size(), width);
     }
   }
   return out;

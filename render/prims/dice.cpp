@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace render {
 
@@ -65,10 +66,9 @@ LinearMap of_points(const Matrix4& affine) {
 
 /// Normals go by the inverse transpose.
 LinearMap of_normals(const Matrix4& inverse) {
-  LinearMap out;
-  for (int c = 0; c < 3; ++c)
-    for (int i = 0; i < 3; ++i)
-      out.weight[c][i] = inverse(c, i);
+  LinearMap out = of_vectors(inverse);
+  for (auto [c, i] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
+    std::swap(out.weight[c][i], out.weight[i][c]);
   return out;
 }
 

@@ -127,8 +127,9 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("--res", resolution, "resolution: width and height in pixels")
       ->expected(2)
       ->allow_extra_args(false);
-  app.add_option("-d,--display", out.display,
-                 "where the first Display goes: a file name such as out.png, or a type such as openexr");
+  app.add_option(
+      "-d,--display", out.display,
+      "where the first Display goes: a file name such as out.png or ./out, or a type such as openexr");
   add_places(app, places, out);
   app.add_flag("--allow-programs", out.allow_programs,
                "let scenes run the programs they name (Procedural \"RunProgram\")");

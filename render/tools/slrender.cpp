@@ -86,7 +86,8 @@ void override_options(const Arguments& arguments, render::Options& options) {
   if (arguments.display.empty()) return;
   if (options.displays.empty()) options.displays.push_back({"ri.tif", "file", "rgba", {}, {}});
   render::DisplayRequest& d = options.displays.front();
-  if (std::filesystem::path(arguments.display).has_extension()) {
+  const std::filesystem::path file(arguments.display);
+  if (file.has_extension() || file.has_parent_path()) {
     d.name = arguments.display;
     d.type = "file";
   } else {

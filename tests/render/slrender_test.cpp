@@ -171,6 +171,8 @@ TEST_F(SlrenderTest, command_line_beats_the_file) {
   EXPECT_FALSE(exists("a.png"));
   EXPECT_EQ(run("-d null -t:all a.rib").status, 0);
   EXPECT_FALSE(exists("a.png"));
+  EXPECT_EQ(run("-d ./plain a.rib").status, 0);
+  EXPECT_TRUE(exists("plain.tif"));
   file("sub.rib", kScene);
   EXPECT_EQ(run("-cwd . -t:1 sub.rib").status, 0);
 }
