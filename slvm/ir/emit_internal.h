@@ -19,6 +19,13 @@ struct LowOperand {
   bool operator==(const LowOperand&) const = default;
 };
 
+constexpr LowOperand word(uint32_t w) {
+  return {LowOperand::Kind::kWord, w};
+}
+constexpr LowOperand target(uint32_t index) {
+  return {LowOperand::Kind::kTarget, index};
+}
+
 struct LowInst {
   uint16_t opcode = 0;
   uint32_t stores =
