@@ -1,4 +1,4 @@
-// Sampling of micropolygons, and compositing.
+// Sampling of micropolygons.
 #include "render/hider/sample_buffer.h"
 
 #include <algorithm>
@@ -8,10 +8,6 @@
 namespace render {
 
 namespace {
-
-bool reaches(const Color& opacity, const Color& threshold) {
-  return opacity.x >= threshold.x && opacity.y >= threshold.y && opacity.z >= threshold.z;
-}
 
 /// Differences, so that equal values stay exactly what they are.
 template <class T> T blend(T a, T b, T c, const float (&w)[3]) {
@@ -45,8 +41,7 @@ SampleBuffer::SampleBuffer(const SamplingSettings& settings)
     : settings_(settings), pattern_(settings.size, settings.moving, settings.lens != nullptr),
       reconstructor_(settings.reconstruction, settings.size),
       density_(static_cast<float>(settings.size.xsamples), static_cast<float>(settings.size.ysamples)),
-      planes_(Image::kAov + settings.aov_floats()), aovs_(settings.aov_floats()),
-      midpoint_(settings.reconstruction.depth_filter == DepthFilter::kMidpoint) {
+      layers_(settings.layers()), aovs_(settings.aov_floats()) {
   for (int s = 0; settings_.lens && s < pattern_.strata(); ++s) {
     auto [low, high] = pattern_.lens_box(s);
     Box& box = lens_boxes_.emplace_back();
@@ -63,19 +58,11 @@ void SampleBuffer::begin(PixelRect rect) {
   covered_ = with_margins(rect, settings_.reconstruction);
   pattern_.cover(covered_);
   origin_ = {static_cast<float>(covered_.x0), static_cast<float>(covered_.y0)};
-  open_ = pattern_.count();
-  farthest_known_ = false;
-  for (size_t c = 0; c < planes_.size(); ++c) // opacities: see make_layers()
-    if (c < Image::kOi || c > Image::kAlpha)
-      planes_[c].assign(open_ + SampleField::kPadding, c == Image::kZ ? kInfinity : 0.0f);
-  if (midpoint_) second_.assign(open_ + SampleField::kPadding, kInfinity);
-  plain_ = true;
-  fragments_.clear();
-  fragment_aov_.clear();
+  layers_.begin(pattern_.count());
   lens_.clear();
-  for (size_t i = 0; settings_.lens && i < open_; ++i)
+  for (size_t i = 0; settings_.lens && i < pattern_.count(); ++i)
     lens_.push_back(settings_.lens->lens_to_raster(pattern_.lens(i)));
-  if (settings_.lens) lens_.resize(open_ + SampleField::kPadding);
+  if (settings_.lens) lens_.resize(pattern_.count() + SampleField::kPadding);
 }
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
@@ -87,7 +74,7 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
     paint_grid(grid);
     return;
   }
-  make_layers();
+  layers_.make_layers();
   auto nu = static_cast<size_t>(grid.nu), nv = static_cast<size_t>(grid.nv);
   bool moving = settings_.lens || !grid.times.empty();
   for (size_t j = 0, m = 0; j + 1 < nv; ++j) {
@@ -107,38 +94,31 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
 
 bool SampleBuffer::can_paint(const ShadedGrid& grid) const {
   return grid.times.empty() && !grid.solid && !grid.matte && grid.level.whole() && !settings_.lens &&
-         !settings_.mask && settings_.clipping_planes.empty() && !midpoint_;
+         !settings_.mask && settings_.clipping_planes.empty() && !settings_.layers().midpoint;
 }
 
 void SampleBuffer::paint_grid(const ShadedGrid& grid) {
   static constexpr float kOne = 1, kZero = 0;
   std::vector<PaintedValues> values;
-  for (size_t c = 0; c < 3; ++c)
-    values.push_back({grid.Ci.plane(c), 1, planes_[Image::kCi + c].data()});
+  for (int c = 0; c < 3; ++c)
+    values.push_back({grid.Ci.plane(static_cast<size_t>(c)), 1, layers_.plane(Image::kCi + c)});
   for (size_t c = 0; c < aovs_; ++c)
-    values.push_back({grid.aov.data() + c * grid.points(), 1, planes_[Image::kAov + c].data()});
-  for (size_t c = 0; !plain_ && c < 3; ++c)
-    values.push_back({&kOne, 0, planes_[Image::kOi + c].data()});
-  if (!plain_) values.push_back({&kZero, 0, matte_.data()});
-  const SampleCanvas canvas{covered_,        pattern_.width(),     pattern_.height(),
-                            density_,        pattern_.x(),         pattern_.y(),
-                            depths().data(), settings_.near_plane, settings_.far_plane};
+    values.push_back(
+        {grid.aov.data() + c * grid.points(), 1, layers_.plane(Image::kAov + static_cast<int>(c))});
+  if (!layers_.plain()) {
+    for (int c = 0; c < 3; ++c)
+      values.push_back({&kOne, 0, layers_.plane(Image::kOi + c)});
+    values.push_back({&kZero, 0, layers_.matte()});
+  }
+  const SampleCanvas canvas{
+      covered_,     pattern_.width(),         pattern_.height(),    density_,           pattern_.x(),
+      pattern_.y(), layers_.plane(Image::kZ), settings_.near_plane, settings_.far_plane};
   not_painted_.clear();
-  open_ -= paint(grid, values, canvas, not_painted_);
-  farthest_known_ = false;
+  layers_.painted(paint(grid, values, canvas, not_painted_));
   if (not_painted_.empty()) return;
-  make_layers();
+  layers_.make_layers();
   for (size_t k : not_painted_)
     draw_micropolygon(grid, k);
-}
-
-void SampleBuffer::make_layers() {
-  if (!plain_) return;
-  plain_ = false;
-  for (int c = Image::kOi; c <= Image::kAlpha; ++c)
-    planes_[c].assign(depths().size(), 1.0f);
-  matte_.assign(depths().size(), 0.0f);
-  fragments_of_.assign(pattern_.count(), kNone);
 }
 
 namespace {
@@ -150,7 +130,7 @@ constexpr float kSlack = 1e-3f;
 
 SampleField SampleBuffer::field(const ShadedGrid& grid) const {
   // Whatever is hidden still bounds a solid.
-  const float* limits = grid.solid ? nullptr : this->limits().data();
+  const float* limits = grid.solid ? nullptr : layers_.limits();
   SampleField out{pattern_.x(), pattern_.y(), limits, static_cast<size_t>(pattern_.width())};
   out.time = pattern_.times();
   if (settings_.lens) {
@@ -167,11 +147,38 @@ void SampleBuffer::make_room(const SampleWindow& window) {
 
 /// The first hits of hits_, of the micropolygon whose first corner is k.
 void SampleBuffer::hit_all(const ShadedGrid& grid, size_t k, size_t count) {
-  auto nu = static_cast<size_t>(grid.nu);
-  for (const QuadHit& h : std::span(hits_.data(), count)) {
-    bool first = h.part == QuadPart::kFirst;
-    hit(grid, h.sample, {k, first ? k + 1 : k + nu + 1, first ? k + nu + 1 : k + nu}, h.weights, h.z);
+  const std::span<const QuadHit> hits(hits_.data(), count);
+  if (!grid.smooth && !grid.solid) {
+    hit_flat(grid, k, hits);
+    return;
   }
+  const auto nu = static_cast<size_t>(grid.nu);
+  for (const QuadHit& h : hits) {
+    if (!takes(grid, h)) continue;
+    const bool first = h.part == QuadPart::kFirst;
+    const Spot spot{{k, first ? k + 1 : k + nu + 1, first ? k + nu + 1 : k + nu},
+                    {h.weights[0], h.weights[1], h.weights[2]}};
+    const SampleSurface surface = surface_at(grid, spot);
+    if (grid.solid)
+      hit_solid(grid, surface, spot, h);
+    else
+      add(h.sample, h.z, surface);
+  }
+}
+
+/// All of the micropolygon looks like its own corner.
+void SampleBuffer::hit_flat(const ShadedGrid& grid, size_t k, std::span<const QuadHit> hits) {
+  if (hits.empty()) return;
+  const SampleSurface surface = surface_at(grid, {{k, k, k}, {1, 0, 0}});
+  if (layers_.hides_what_is_behind(surface.Oi)) {
+    for (const QuadHit& h : hits)
+      if (takes(grid, h)) layers_.cover(h.sample, h.z, surface);
+    return;
+  }
+  if (surface.is_nothing()) return;
+  const uint32_t look = layers_.keep(surface);
+  for (const QuadHit& h : hits)
+    if (takes(grid, h)) layers_.lay(h.sample, h.z, look);
 }
 
 void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
@@ -309,249 +316,66 @@ bool SampleBuffer::removed(size_t index, float z) const {
   return false;
 }
 
-namespace {
-
-/// corners[0] is the micropolygon's own corner, whose values it has throughout without smooth shading.
-Color colour_of(const ShadedGrid& grid, const size_t (&corners)[3], const float (&weights)[3]) {
-  const Color own = grid.Ci[corners[0]];
-  return grid.smooth ? blend(own, grid.Ci[corners[1]], grid.Ci[corners[2]], weights) : own;
+/// Whether the sample sees the surface there, as far as it depends on where that is.
+bool SampleBuffer::takes(const ShadedGrid& grid, const QuadHit& h) const {
+  if (!grid.level.whole() && !grid.level.has(pattern_.level(h.sample))) return false;
+  if (grid.solid) return h.z >= settings_.near_plane; // more of it bounds the solid than can be seen
+  return h.z < layers_.limits()[h.sample] && h.z >= settings_.near_plane && h.z <= settings_.far_plane &&
+         !removed(h.sample, h.z);
 }
 
-Color opacity_of(const ShadedGrid& grid, const size_t (&corners)[3], const float (&weights)[3]) {
-  const Color own = grid.opacity(corners[0]);
-  if (!grid.smooth || grid.opaque) return own;
-  return blend(own, grid.Oi[corners[1]], grid.Oi[corners[2]], weights);
-}
-
-} // namespace
-
-void SampleBuffer::hit(const ShadedGrid& grid, size_t index, const size_t (&corners)[3],
-                       const float (&weights)[3], float z) {
-  if (!grid.level.whole() && !grid.level.has(pattern_.level(index))) return;
-  if (grid.solid) {
-    hit_solid(grid, index, corners, weights, z);
-    return;
+/// Without smooth shading the micropolygon has the values of its own corner throughout. Valid until the next
+/// call.
+SampleSurface SampleBuffer::surface_at(const ShadedGrid& grid, const Spot& at) {
+  const auto& [a, b, c] = at.corners;
+  SampleSurface out{grid.Ci[a], grid.opacity(a), grid.matte};
+  if (grid.smooth) {
+    out.Ci = blend(out.Ci, grid.Ci[b], grid.Ci[c], at.weights);
+    if (!grid.opaque) out.Oi = blend(out.Oi, grid.Oi[b], grid.Oi[c], at.weights);
   }
-  if (z >= limits()[index] || z < settings_.near_plane || z > settings_.far_plane) return;
-  if (removed(index, z)) return;
-  add(index, colour_of(grid, corners, weights), opacity_of(grid, corners, weights), z, grid.matte,
-      variables_of(grid, corners, weights));
-}
-
-Color SampleBuffer::colour(size_t index, int channel) const {
-  return {planes_[channel][index], planes_[channel + 1][index], planes_[channel + 2][index]};
-}
-
-void SampleBuffer::set_colour(size_t index, int channel, const Color& c) {
-  for (int i = 0; i < 3; ++i)
-    planes_[channel + i][index] = c[i];
-}
-
-void SampleBuffer::set_aov(size_t index, const float* values) {
-  for (size_t k = 0; k < aovs_; ++k)
-    planes_[Image::kAov + k][index] = values[k];
-}
-
-/// The variables of displays, as colour_of(). Valid until the next call.
-const float* SampleBuffer::variables_of(const ShadedGrid& grid, const size_t (&corners)[3],
-                                        const float (&weights)[3]) {
-  if (aovs_ == 0) return nullptr;
   blended_aov_.resize(aovs_);
   const float* values = grid.aov.data();
-  for (size_t k = 0; k < aovs_; ++k, values += grid.points()) {
-    const float own = values[corners[0]];
-    blended_aov_[k] = grid.smooth ? blend(own, values[corners[1]], values[corners[2]], weights) : own;
+  for (float& v : blended_aov_) {
+    v = grid.smooth ? blend(values[a], values[b], values[c], at.weights) : values[a];
+    values += grid.points();
   }
-  return blended_aov_.data();
+  out.aov = blended_aov_.data();
+  return out;
+}
+
+void SampleBuffer::add(size_t index, float z, const SampleSurface& surface) {
+  if (layers_.hides_what_is_behind(surface.Oi))
+    layers_.cover(index, z, surface);
+  else if (!surface.is_nothing())
+    layers_.lay(index, z, layers_.keep(surface));
 }
 
 /// Also what is not to be seen, all of which bounds the solid. Nothing is known in front of the near plane.
-void SampleBuffer::hit_solid(const ShadedGrid& grid, size_t index, const size_t (&corners)[3],
-                             const float (&weights)[3], float z) {
-  if (!(z >= settings_.near_plane)) return;
+void SampleBuffer::hit_solid(const ShadedGrid& grid, const SampleSurface& surface, const Spot& at,
+                             const QuadHit& hit) {
   // Micropolygons are counted as their first corners are, less one for each row.
-  size_t micropolygon = corners[0] - corners[0] / static_cast<size_t>(grid.nu);
-  bool unseen =
-      grid.hidden[micropolygon] == ShadedGrid::kFacesAway || z > settings_.far_plane || removed(index, z);
-  solid_hits_.add({colour_of(grid, corners, weights), opacity_of(grid, corners, weights), z,
-                   static_cast<uint32_t>(index), grid.solid_primitive, grid.matte, unseen, grid.cut_near});
-  const float* aov = variables_of(grid, corners, weights);
-  solid_aov_.insert(solid_aov_.end(), aov, aov + aovs_);
+  const size_t micropolygon = at.corners[0] - at.corners[0] / static_cast<size_t>(grid.nu);
+  const bool unseen = grid.hidden[micropolygon] == ShadedGrid::kFacesAway || hit.z > settings_.far_plane ||
+                      removed(hit.sample, hit.z);
+  solid_hits_.add(
+      {surface.Ci, surface.Oi, hit.z, hit.sample, grid.solid_primitive, grid.matte, unseen, grid.cut_near});
+  solid_aov_.insert(solid_aov_.end(), surface.aov, surface.aov + aovs_);
 }
 
 void SampleBuffer::resolve_solid() {
   if (solid_hits_.empty()) return;
   solid_hits_.resolve(*solid_, [&](size_t k, const SolidHit& h) {
-    if (!(h.z >= limits()[h.sample])) add(h.sample, h.Ci, h.Oi, h.z, h.matte, solid_aov_.data() + k * aovs_);
+    if (!(h.z >= layers_.limits()[h.sample]))
+      add(h.sample, h.z, {h.Ci, h.Oi, h.matte, solid_aov_.data() + k * aovs_});
   });
   solid_aov_.clear();
 }
 
-void SampleBuffer::add(size_t index, const Color& Ci, const Color& Oi, float z, bool matte,
-                       const float* aov) {
-  float& nearest = depths()[index];
-  if (reaches(Oi, settings_.opacity_threshold)) {
-    farthest_known_ = false;
-    float& limit = limits()[index];
-    bool was_open = limit == kInfinity;
-    if (midpoint_) limit = std::min(limit, std::max(z, nearest));
-    bool in_front = z < nearest;
-    if (in_front) nearest = z;
-    if (was_open && limit < kInfinity) --open_;
-    if (!in_front) return;
-    set_colour(index, Image::kCi, Ci);
-    set_colour(index, Image::kOi, Oi);
-    matte_[index] = matte ? 1.0f : 0.0f;
-    set_aov(index, aov);
-    return;
-  }
-  if (z >= nearest || (Ci == Color(0.0f) && Oi == Color(0.0f))) return; // hidden, or not there at all
-  auto order = static_cast<uint32_t>(fragments_.size());
-  fragments_.push_back({Ci, Oi, z, fragments_of_[index], order, matte});
-  fragment_aov_.insert(fragment_aov_.end(), aov, aov + aovs_);
-  fragments_of_[index] = order;
-}
-
-namespace {
-
-/// Of numbers that are not negative; in lanes, for the compiler to use vectors.
-float greatest(std::span<const float> values) {
-  constexpr size_t kLanes = 16;
-  float most[kLanes] = {};
-  size_t k = 0;
-  for (; k + kLanes <= values.size(); k += kLanes)
-    for (size_t i = 0; i < kLanes; ++i)
-      most[i] = most[i] < values[k + i] ? values[k + i] : most[i];
-  for (; k < values.size(); ++k)
-    most[0] = std::max(most[0], values[k]);
-  return *std::max_element(most, most + kLanes);
-}
-
-} // namespace
-
-float SampleBuffer::farthest() const {
-  if (open_ > 0) return kInfinity;
-  if (!farthest_known_) {
-    farthest_ = greatest(std::span(limits().data(), pattern_.count()));
-    farthest_known_ = true;
-  }
-  return farthest_;
-}
-
-/// Front to back: C += T Ci, T *= 1 - Oi for each component, until the opacity threshold (RISpec 3.2, 4.2).
-/// The depth is that of the first surface opaque enough to have one.
-void SampleBuffer::composite(size_t index) {
-  const bool matte_behind = matte_[index] != 0;
-  const float nearest = depths()[index], depth_behind = opaque_depth(index);
-  scratch_.clear();
-  for (uint32_t f = fragments_of_[index]; f != kNone; f = fragments_[f].next)
-    if (fragments_[f].z < nearest) scratch_.push_back(&fragments_[f]);
-  std::sort(scratch_.begin(), scratch_.end(), [](const Fragment* a, const Fragment* b) {
-    return a->z != b->z ? a->z < b->z : a->order < b->order;
-  });
-  Color C(0.0f), O(0.0f), through(1.0f);
-  auto add = [&](Color Ci, Color Oi, bool matte) {
-    if (!matte) {
-      C += through * Ci;
-      O += through * Oi;
-    }
-    through *= Color(1.0f) - Oi;
-  };
-  float depth = kInfinity;
-  bool seen = false, closed = false;
-  for (const Fragment* f : scratch_) {
-    if (!seen && !f->matte) {
-      seen = true;
-      set_aov(index, fragment_aov_.data() + f->order * aovs_);
-    }
-    if (!f->matte && reaches(f->Oi, settings_.depth_threshold)) depth = std::min(depth, f->z);
-    add(f->Ci, f->Oi, f->matte);
-    closed = reaches(Color(1.0f) - through, settings_.opacity_threshold);
-    if (closed) break;
-  }
-  if (!closed && nearest < kInfinity) {
-    add(colour(index, Image::kCi), colour(index, Image::kOi), matte_behind);
-    if (matte_behind && !seen)
-      for (size_t k = 0; k < aovs_; ++k)
-        planes_[Image::kAov + k][index] = 0;
-  }
-  if (!matte_behind) depth = std::min(depth, depth_behind);
-  depths()[index] = depth;
-  set_colour(index, Image::kCi, C);
-  set_colour(index, Image::kOi, O);
-  planes_[Image::kAlpha][index] = (O.x + O.y + O.z) / 3;
-}
-
-/// The depth of what is opaque; with midpoints, half way to what is behind it.
-float SampleBuffer::opaque_depth(size_t index) const {
-  float nearest = depths()[index];
-  return midpoint_ && second_[index] < kInfinity ? 0.5f * (nearest + second_[index]) : nearest;
-}
-
-void SampleBuffer::find_filled() {
-  const auto width = static_cast<size_t>(pattern_.width());
-  auto is_empty = [&](size_t k) { return depths()[k] == kInfinity && (plain_ || fragments_of_[k] == kNone); };
-  filled_.assign(static_cast<size_t>(pattern_.height()), {});
-  for (size_t j = 0; j < filled_.size(); ++j) {
-    SampleSpan row{0, width};
-    while (row.begin < row.end && is_empty(j * width + row.begin))
-      ++row.begin;
-    while (row.begin < row.end && is_empty(j * width + row.end - 1))
-      --row.end;
-    filled_[j] = row;
-  }
-}
-
-namespace {
-
-/// Sets the opacities of what has nothing to 0, and alpha to the mean of the three; in vectors.
-void find_alpha(std::span<const float> depth, float* __restrict r, float* __restrict g, float* __restrict b,
-                float* __restrict alpha) {
-  for (size_t k = 0; k < depth.size(); ++k) {
-    const float covered = depth[k] < kInfinity ? 1.0f : 0.0f;
-    r[k] *= covered;
-    g[k] *= covered;
-    b[k] *= covered;
-    alpha[k] = (r[k] + g[k] + b[k]) / 3;
-  }
-}
-
-} // namespace
-
-/// What there are no layers over is soon done: only the coverage is left to find out.
-void SampleBuffer::composite_all() {
-  const size_t count = pattern_.count();
-  std::vector<float>&depth = depths(), &alpha = planes_[Image::kAlpha];
-  alpha.resize(depth.size());
-  if (plain_) {
-    for (size_t k = 0; k < count; ++k)
-      alpha[k] = depth[k] < kInfinity ? 1.0f : 0.0f;
-    return;
-  }
-  find_alpha(std::span(depth.data(), count), planes_[Image::kOi].data(), planes_[Image::kOi + 1].data(),
-             planes_[Image::kOi + 2].data(), alpha.data());
-  for (size_t k = 0; k < count; ++k)
-    if (fragments_of_[k] != kNone || matte_[k] != 0)
-      composite(k);
-    else if (midpoint_)
-      depth[k] = opaque_depth(k);
-}
-
-std::vector<const float*> SampleBuffer::planes() const {
-  std::vector<const float*> out;
-  for (const std::vector<float>& plane : planes_)
-    out.push_back(plane.data());
-  for (int c = Image::kOi; plain_ && c < Image::kAlpha; ++c)
-    out[static_cast<size_t>(c)] = out[Image::kAlpha];
-  return out;
-}
-
 void SampleBuffer::finish(Image& image) {
   resolve_solid();
-  find_filled();
-  composite_all();
-  const std::vector<const float*> planes = this->planes();
-  reconstructor_.run({rect_, covered_, pattern_, planes, filled_}, image);
+  const std::span<const SampleSpan> filled = layers_.find_filled(static_cast<size_t>(pattern_.width()));
+  layers_.composite();
+  reconstructor_.run({rect_, covered_, pattern_, layers_.finished(), filled}, image);
 }
 
 } // namespace render

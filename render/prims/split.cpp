@@ -49,7 +49,7 @@ private:
   void visit(const Piece& piece);
   bool outside_frustum(const Box& box) const;
   void raster_bound(const Box& box, GridTask& task) const;
-  Extent measure(const UvRect& rect, bool in_raster) const;
+  Extent measure(const UvRect& rect, bool in_raster);
   int segments(float wanted, float fewest) const;
   void split(const Piece& piece, bool along_u, int eye_splits);
 
@@ -62,6 +62,7 @@ private:
   const Dicing& dicing_;
   std::vector<Piece> stack_;
   size_t pieces_ = 0;
+  SurfaceLattice lattice_; ///< of the piece being measured
 };
 
 void Splitter::visit(const Piece& piece) {
@@ -175,7 +176,7 @@ void Splitter::raster_bound(const Box& box, GridTask& task) const {
 
 /// Longest row and column of a coarse lattice, in pixels or (for pieces behind the eye) in camera space.
 /// Where orientation is not to count, a line of the lattice is as long as if it faced the eye.
-Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
+Extent Splitter::measure(const UvRect& rect, bool in_raster) {
   int segments = primitive_.geometry->ruled() ? 1 : kProbes;
   int n = segments + 1;
   float u[kProbes + 1], v[kProbes + 1];
@@ -184,12 +185,11 @@ Extent Splitter::measure(const UvRect& rect, bool in_raster) const {
     u[i] = rect.u0 + t * (rect.u1 - rect.u0);
     v[i] = rect.v0 + t * (rect.v1 - rect.v0);
   }
-  SurfaceLattice lattice;
   auto count = static_cast<size_t>(n);
-  primitive_.geometry->evaluate({{u, count}, {v, count}}, lattice);
+  primitive_.geometry->evaluate({{u, count}, {v, count}}, lattice_);
   Vec3 p[(kProbes + 1) * (kProbes + 1)], there[(kProbes + 1) * (kProbes + 1)];
-  for (size_t k = 0; k < lattice.P.size(); ++k) {
-    p[k] = transform_point(primitive_.state->object_to_camera, lattice.P[k]);
+  for (size_t k = 0; k < lattice_.P.size(); ++k) {
+    p[k] = transform_point(primitive_.state->object_to_camera, lattice_.P[k]);
     if (!in_raster) continue;
     if (camera_.perspective()) p[k].z = std::max(p[k].z, camera_.near_plane());
     there[k] = p[k];

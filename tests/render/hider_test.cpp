@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 namespace render {
@@ -111,6 +113,31 @@ TEST(Hider, transparent_surfaces_composite_front_to_back) {
   }
   Image i = drawn({b, a});
   EXPECT_FLOAT_EQ(i.pixel(0, 0)[Image::kAlpha], 1 - 0.5f * 0.75f);
+}
+
+TEST(Hider, many_layers_composite_in_the_order_of_their_depths) {
+  // Few and many take different ways to their order. Two at each depth: the one drawn first is in front.
+  for (int count : {7, 90}) {
+    std::vector<ShadedGrid> grids;
+    std::vector<std::pair<float, Color>> layers;
+    for (int k = 0; k < count; ++k) {
+      const float z = 1 + static_cast<float>((k * 37 % count) / 2), x = static_cast<float>(k);
+      layers.emplace_back(z, 0.05f * Color(x / 90, std::fmod(x, 2.0f), std::fmod(x, 3.0f)));
+      grids.push_back(sheet(z, layers.back().second, Color(0.05f)));
+      grids.back().smooth = k % 2 == 0;
+    }
+    std::stable_sort(layers.begin(), layers.end(), [](auto& a, auto& b) { return a.first < b.first; });
+    Color expected(0.0f);
+    float through = 1;
+    for (const auto& [z, Ci] : layers) {
+      expected += through * Ci;
+      through *= 0.95f;
+    }
+    const Image i = drawn(grids);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(i.pixel(1, 2)[c], expected[c], 1e-6f) << count;
+    EXPECT_NEAR(i.pixel(1, 2)[Image::kAlpha], 1 - through, 1e-5f) << count;
+  }
 }
 
 TEST(Hider, coloured_opacity_filters_each_component) {
