@@ -74,6 +74,8 @@ public:
   /// A box around the part `rect`, in object space. May be larger, never smaller.
   virtual Box bound(const UvRect& rect) const = 0;
   virtual void evaluate(const UvPoints& at, SurfaceLattice& out) const = 0;
+  /// The same for those who want out.P only: the rest of it may be left as it was.
+  virtual void find_points(const UvPoints& at, SurfaceLattice& out) const { evaluate(at, out); }
   /// Whether all lines of constant u or v are straight, so that the four corners tell the size of a part.
   virtual bool ruled() const { return false; }
   /// Micropolygons the whole of u and of v takes at least, however small it is: powers of two.

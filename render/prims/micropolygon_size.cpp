@@ -19,7 +19,7 @@ bool probe(const Primitive& p, const Camera& camera, float time, Probes& out) {
   std::shared_ptr<const Geometry> shape = p.deformation.empty() ? p.geometry : shape_at(p.deformation, time);
   Matrix4 m = p.state->motion.empty() ? p.state->object_to_camera : matrix_at(p.state->motion, time);
   SurfaceLattice lattice;
-  shape->evaluate({at, at}, lattice);
+  shape->find_points({at, at}, lattice);
   for (size_t k = 0; k < out.size(); ++k) {
     Vec3 q = transform_point(m, lattice.P[k]);
     if (camera.perspective() && !(q.z >= camera.near_plane())) return false;

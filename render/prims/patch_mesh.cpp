@@ -85,6 +85,7 @@ public:
   MeshPiece(const MeshOfPatches& mesh, int i, int j) : mesh_(&mesh), i_(i), j_(j) {}
   Box bound(const UvRect& r) const override;
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
+  void find_points(const UvPoints& at, SurfaceLattice& out) const override;
   bool ruled() const override;
   int i() const { return i_; }
   int j() const { return j_; }
@@ -159,6 +160,13 @@ void MeshPiece::evaluate(const UvPoints& at, SurfaceLattice& out) const {
     mesh_->bicubic(*this).evaluate(at, out);
   else
     mesh_->bilinear(*this).evaluate(at, out);
+}
+
+void MeshPiece::find_points(const UvPoints& at, SurfaceLattice& out) const {
+  if (mesh_->cubic())
+    mesh_->bicubic(*this).find_points(at, out);
+  else
+    mesh_->bilinear(*this).find_points(at, out);
 }
 
 bool MeshPiece::ruled() const {

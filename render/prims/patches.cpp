@@ -115,6 +115,19 @@ public:
 
   void run(const UvPoints& at) {
     out_.resize(at.size());
+    each_row(at, [&](const auto& columns, size_t first, size_t count, const float* u, auto& row, float v,
+                     size_t k) { add_row(columns, first, count, u, row, v, k); });
+  }
+  void find_points(const UvPoints& at) {
+    out_.P.resize(at.size());
+    each_row(at, [&](const auto& columns, size_t first, size_t count, const float*, auto& row, float v,
+                     size_t k) { add_points(columns, first, count, row, v, k); });
+  }
+
+private:
+  static constexpr size_t kBlock = AxisWeights<kOrder>::kBlock;
+
+  template <class F> void each_row(const UvPoints& at, F&& f) {
     const size_t width = at.u.size();
     AxisWeights<kOrder> columns, rows;
     for (size_t u = 0; u < width; u += kBlock) {
@@ -123,15 +136,12 @@ public:
         columns.set(i, at.u[u + i]);
       if (at.paired)
         for (size_t i = 0; i < count; ++i)
-          add_row(columns, i, 1, &at.u[u + i], rows, at.v[u + i], u + i);
+          f(columns, i, size_t{1}, &at.u[u + i], rows, at.v[u + i], u + i);
       else
         for (size_t j = 0; j < at.v.size(); ++j)
-          add_row(columns, 0, count, &at.u[u], rows, at.v[j], j * width + u);
+          f(columns, size_t{0}, count, &at.u[u], rows, at.v[j], j * width + u);
     }
   }
-
-private:
-  static constexpr size_t kBlock = AxisWeights<kOrder>::kBlock;
 
   /// `count` points from k on, of as many columns from `first` on. A row of a patch is a curve of u, and so
   /// is its change along v.
@@ -154,6 +164,18 @@ private:
       combine(change, columns.value, first, count, out_.dPdv.plane(c) + k);
     }
     add_normals(u, v, count, k);
+  }
+
+  void add_points(const AxisWeights<kOrder>& columns, size_t first, size_t count, AxisWeights<kOrder>& row,
+                  float v, size_t k) {
+    row.set(0, v);
+    for (size_t c = 0; c < 3; ++c) {
+      std::array<float, kOrder> points{};
+      for (size_t i = 0; i < kOrder; ++i)
+        for (size_t j = 0; j < kOrder; ++j)
+          points[i] += p_[j * kOrder + i][static_cast<glm::length_t>(c)] * row.value[j][0];
+      combine(points, columns.value, first, count, out_.P.plane(c) + k);
+    }
   }
 
   void add_normals(const float* u, float v, size_t count, size_t k) {
@@ -194,6 +216,10 @@ void BilinearPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
   TensorProduct<2>(p_, out).run(at);
 }
 
+void BilinearPatch::find_points(const UvPoints& at, SurfaceLattice& out) const {
+  TensorProduct<2>(p_, out).find_points(at);
+}
+
 Box BicubicPatch::bound(const UvRect& r) const {
   std::array<Vec3, 16> q = p_;
   for (size_t row = 0; row < 4; ++row)
@@ -208,6 +234,10 @@ Box BicubicPatch::bound(const UvRect& r) const {
 
 void BicubicPatch::evaluate(const UvPoints& at, SurfaceLattice& out) const {
   TensorProduct<4>(p_, out).run(at);
+}
+
+void BicubicPatch::find_points(const UvPoints& at, SurfaceLattice& out) const {
+  TensorProduct<4>(p_, out).find_points(at);
 }
 
 std::array<float, 4> bernstein(float t) {

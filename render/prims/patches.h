@@ -16,6 +16,7 @@ public:
   explicit BilinearPatch(const std::array<Vec3, 4>& p) : p_(p) {}
   Box bound(const UvRect& r) const override;
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
+  void find_points(const UvPoints& at, SurfaceLattice& out) const override;
   bool ruled() const override { return true; }
 
 private:
@@ -32,6 +33,7 @@ public:
   explicit BicubicPatch(const std::array<Vec3, 16>& p, int coarsest = 4) : p_(p), coarsest_(coarsest) {}
   Box bound(const UvRect& r) const override;
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override;
+  void find_points(const UvPoints& at, SurfaceLattice& out) const override;
   std::array<int, 2> coarsest() const override { return {coarsest_, coarsest_}; }
 
 private:

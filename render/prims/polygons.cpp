@@ -63,6 +63,7 @@ public:
       : mesh_(&mesh), face_(face), part_(part) {}
   Box bound(const UvRect& r) const override { return patch().bound(r); }
   void evaluate(const UvPoints& at, SurfaceLattice& out) const override { patch().evaluate(at, out); }
+  void find_points(const UvPoints& at, SurfaceLattice& out) const override { patch().find_points(at, out); }
   bool ruled() const override { return true; }
   uint32_t face() const { return face_; }
   uint32_t part() const { return part_; }

@@ -24,6 +24,51 @@ struct Piece {
   int eye_splits = 0;
 };
 
+/// The corners of a box in camera space on the raster, in homogeneous coordinates; hence also of boxes that
+/// reach behind the eye. All corners at once, in vectors.
+struct RasterCorners {
+  static constexpr int kCount = 8;
+  float x[kCount], y[kCount], w[kCount];
+
+  RasterCorners(const Box& box, const Matrix4& to_raster) {
+    const auto& m = to_raster.m;
+    float X[kCount], Y[kCount], Z[kCount];
+    for (int i = 0; i < kCount; ++i) {
+      const Vec3 p = box.corner(i);
+      X[i] = p.x, Y[i] = p.y, Z[i] = p.z;
+    }
+    for (int i = 0; i < kCount; ++i) {
+      x[i] = X[i] * m[0] + Y[i] * m[4] + Z[i] * m[8] + m[12];
+      y[i] = X[i] * m[1] + Y[i] * m[5] + Z[i] * m[9] + m[13];
+      w[i] = X[i] * m[3] + Y[i] * m[7] + Z[i] * m[11] + m[15];
+    }
+  }
+  /// Whether all of them are on the outer side of one side plane of the pyramid that is seen as [low, high].
+  bool outside(Vec2 low, Vec2 high) const {
+    int left = 0, right = 0, top = 0, bottom = 0;
+    for (int i = 0; i < kCount; ++i) {
+      left += x[i] < low.x * w[i];
+      right += x[i] > high.x * w[i];
+      top += y[i] < low.y * w[i];
+      bottom += y[i] > high.y * w[i];
+    }
+    return std::max(std::max(left, right), std::max(top, bottom)) == kCount;
+  }
+  /// Around all of them, which are in front of the eye.
+  void bound(Vec2& low, Vec2& high) const {
+    float rx[kCount], ry[kCount];
+    for (int i = 0; i < kCount; ++i) {
+      rx[i] = x[i] / w[i];
+      ry[i] = y[i] / w[i];
+    }
+    low = high = {rx[0], ry[0]};
+    for (int i = 1; i < kCount; ++i) {
+      low = glm::min(low, Vec2(rx[i], ry[i]));
+      high = glm::max(high, Vec2(rx[i], ry[i]));
+    }
+  }
+};
+
 struct Extent {
   float u = 0, v = 0; ///< longest row and column of the probing lattice
 };
@@ -47,8 +92,6 @@ public:
 
 private:
   void visit(const Piece& piece);
-  bool outside_frustum(const Box& box) const;
-  void raster_bound(const Box& box, GridTask& task) const;
   Extent measure(const UvRect& rect, bool in_raster);
   int segments(float wanted, float fewest) const;
   void split(const Piece& piece, bool along_u, int eye_splits);
@@ -71,7 +114,12 @@ void Splitter::visit(const Piece& piece) {
   // A box that is not a number is of no use to anyone; the negated test catches it.
   // Surfaces of solids count also where they are too far to be seen.
   bool too_far = !(box.min.z <= camera_.far_plane()) && !primitive_.state->solid;
-  if (!(box.max.z >= camera_.near_plane()) || too_far || outside_frustum(box)) return;
+  if (!(box.max.z >= camera_.near_plane()) || too_far) return;
+  const RasterCorners corners(box, camera_.to_raster());
+  // Out of focus, a box outside the pyramid may be seen: its raster bound decides.
+  if (camera_.perspective() && !camera_.has_lens() &&
+      corners.outside(settings_.raster_min, settings_.raster_max))
+    return;
 
   // Pieces that reach behind the near plane cannot be projected: split them until the rest is out of the
   // picture.
@@ -89,7 +137,10 @@ void Splitter::visit(const Piece& piece) {
   task.raster_min = settings_.raster_min;
   task.raster_max = settings_.raster_max;
   if (!crosses_eye) {
-    raster_bound(box, task);
+    corners.bound(task.raster_min, task.raster_max);
+    const Vec2 blur = camera_.blur(std::max(box.min.z, camera_.near_plane()), box.max.z);
+    task.raster_min -= blur;
+    task.raster_max += blur;
     if (!(task.raster_max.x >= settings_.raster_min.x) || !(task.raster_min.x <= settings_.raster_max.x) ||
         !(task.raster_max.y >= settings_.raster_min.y) || !(task.raster_min.y <= settings_.raster_max.y))
       return;
@@ -141,39 +192,6 @@ void Splitter::split(const Piece& piece, bool along_u, int eye_splits) {
   stack_.push_back(a);
 }
 
-/// True when all corners are on the outer side of one side plane of the viewing pyramid. Works in homogeneous
-/// coordinates, hence also for boxes that reach behind the eye.
-bool Splitter::outside_frustum(const Box& box) const {
-  // Out of focus, a box outside the pyramid may be seen: its raster bound decides.
-  if (!camera_.perspective() || camera_.has_lens()) return false;
-  const auto& m = camera_.to_raster().m;
-  bool left = true, right = true, top = true, bottom = true;
-  for (int i = 0; i < 8; ++i) {
-    Vec3 p = box.corner(i);
-    float x = p.x * m[0] + p.y * m[4] + p.z * m[8] + m[12];
-    float y = p.x * m[1] + p.y * m[5] + p.z * m[9] + m[13];
-    float w = p.x * m[3] + p.y * m[7] + p.z * m[11] + m[15];
-    left = left && x < settings_.raster_min.x * w;
-    right = right && x > settings_.raster_max.x * w;
-    top = top && y < settings_.raster_min.y * w;
-    bottom = bottom && y > settings_.raster_max.y * w;
-  }
-  return left || right || top || bottom;
-}
-
-void Splitter::raster_bound(const Box& box, GridTask& task) const {
-  task.raster_min = Vec2(kInfinity);
-  task.raster_max = Vec2(-kInfinity);
-  for (int i = 0; i < 8; ++i) {
-    Vec2 r = camera_.project(box.corner(i));
-    task.raster_min = glm::min(task.raster_min, r);
-    task.raster_max = glm::max(task.raster_max, r);
-  }
-  Vec2 blur = camera_.blur(std::max(box.min.z, camera_.near_plane()), box.max.z);
-  task.raster_min -= blur;
-  task.raster_max += blur;
-}
-
 /// Longest row and column of a coarse lattice, in pixels or (for pieces behind the eye) in camera space.
 /// Where orientation is not to count, a line of the lattice is as long as if it faced the eye.
 Extent Splitter::measure(const UvRect& rect, bool in_raster) {
@@ -186,7 +204,7 @@ Extent Splitter::measure(const UvRect& rect, bool in_raster) {
     v[i] = rect.v0 + t * (rect.v1 - rect.v0);
   }
   auto count = static_cast<size_t>(n);
-  primitive_.geometry->evaluate({{u, count}, {v, count}}, lattice_);
+  primitive_.geometry->find_points({{u, count}, {v, count}}, lattice_);
   Vec3 p[(kProbes + 1) * (kProbes + 1)], there[(kProbes + 1) * (kProbes + 1)];
   for (size_t k = 0; k < lattice_.P.size(); ++k) {
     p[k] = transform_point(primitive_.state->object_to_camera, lattice_.P[k]);

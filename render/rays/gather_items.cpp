@@ -30,8 +30,8 @@ bool nearly_equal(const Matrix4& a, const Matrix4& b) {
 bool same_geometry(const Geometry& a, const Geometry& b) {
   constexpr float kProbes[] = {0, 0.37f, 0.71f, 1};
   SurfaceLattice x, y;
-  a.evaluate({kProbes, kProbes}, x);
-  b.evaluate({kProbes, kProbes}, y);
+  a.find_points({kProbes, kProbes}, x);
+  b.find_points({kProbes, kProbes}, y);
   return x.P == y.P;
 }
 

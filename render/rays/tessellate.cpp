@@ -75,7 +75,7 @@ void surface_positions(const Primitive& p, int nu, int nv, std::vector<Vec3>& P)
   even_parameters(0, 1, nu, u);
   even_parameters(0, 1, nv, v);
   SurfaceLattice lattice;
-  p.geometry->evaluate({u, v}, lattice);
+  p.geometry->find_points({u, v}, lattice);
   P.resize(lattice.P.size());
   for (size_t k = 0; k < P.size(); ++k)
     P[k] = transform_point(p.state->object_to_camera, lattice.P[k]);

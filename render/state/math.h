@@ -70,6 +70,15 @@ struct Box {
 /// The box of a box's eight transformed corners.
 inline Box transform_box(const Matrix4& m, const Box& b) {
   Box out;
+  if (is_affine(m)) { // the same, for the farthest corner is made of the farthest terms (Arvo, Graphics Gems)
+    for (int c = 0; c < 3; ++c) {
+      auto near = [&](int i) { return std::min(b.min[i] * m(i, c), b.max[i] * m(i, c)); };
+      auto far = [&](int i) { return std::max(b.min[i] * m(i, c), b.max[i] * m(i, c)); };
+      out.min[c] = near(0) + near(1) + near(2) + m(3, c);
+      out.max[c] = far(0) + far(1) + far(2) + m(3, c);
+    }
+    return out;
+  }
   for (int i = 0; i < 8; ++i)
     out.add(transform_point(m, b.corner(i)));
   return out;

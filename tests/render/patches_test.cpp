@@ -72,6 +72,24 @@ TEST(Patches, bicubic_tangents_are_derivatives) {
   expect_near(l.dPdv[4], (l.P[7] - l.P[1]) / (2 * h), 5e-3f);
 }
 
+TEST(Patches, points_alone_are_those_of_the_whole_evaluation) {
+  std::array<Vec3, 16> net;
+  for (size_t k = 0; k < net.size(); ++k)
+    net[k] = {static_cast<float>(k % 4), static_cast<float>(k / 4), static_cast<float>(k * k % 7)};
+  std::vector<float> u, v;
+  for (int k = 0; k < 70; ++k) { // more than are worked out together
+    u.push_back(static_cast<float>(k) / 69);
+    v.push_back(static_cast<float>(k * k % 70) / 69);
+  }
+  for (const auto& g : {make_bicubic(net), make_bilinear({net[0], net[3], net[12], net[15]})})
+    for (const UvPoints& at : {UvPoints{u, std::span(v).first(3)}, UvPoints{u, v, true}}) {
+      SurfaceLattice all, points;
+      g->evaluate(at, all);
+      g->find_points(at, points);
+      EXPECT_EQ(points.P, all.P);
+    }
+}
+
 TEST(Patches, bases_convert_to_bezier) {
   // A b-spline of equally spaced points on a line is the middle third of it, traversed evenly.
   Matrix4 bspline{{-1 / 6.f, 3 / 6.f, -3 / 6.f, 1 / 6.f, 3 / 6.f, -1, 3 / 6.f, 0, -3 / 6.f, 0, 3 / 6.f, 0,

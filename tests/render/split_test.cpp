@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace render {
 namespace {
 
@@ -36,6 +38,25 @@ double area(const std::vector<GridTask>& tasks) {
   for (const GridTask& t : tasks)
     sum += static_cast<double>(t.rect.u1 - t.rect.u0) * static_cast<double>(t.rect.v1 - t.rect.v0);
   return sum;
+}
+
+TEST(Split, the_box_of_a_moved_box_is_that_of_its_corners) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> number(-3, 3);
+  for (int round = 0; round < 200; ++round) {
+    Matrix4 m;
+    for (int i = 0; i < 4; ++i)
+      for (int c = 0; c < (round % 2 ? 3 : 4); ++c) // in perspective, too
+        m(i, c) = number(random);
+    Box box, expected;
+    for (int i = 0; i < 2; ++i)
+      box.add({number(random), number(random), number(random)});
+    for (int i = 0; i < 8; ++i)
+      expected.add(transform_point(m, box.corner(i)));
+    const Box moved = transform_box(m, box);
+    EXPECT_EQ(moved.min, expected.min);
+    EXPECT_EQ(moved.max, expected.max);
+  }
 }
 
 TEST(Split, grids_respect_their_limit_and_cover_the_surface) {
