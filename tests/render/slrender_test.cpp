@@ -29,7 +29,7 @@ TEST_F(SlrenderTest, renders_a_file) {
   EXPECT_TRUE(exists("a.png"));
 }
 
-TEST_F(SlrenderTest, pictures_and_shadows_need_no_openimageio) {
+TEST_F(SlrenderTest, pictures_and_maps_need_no_openimageio) {
   // A copy of the program without the module that holds the library.
   fs::copy_file(SLRENDER_PROGRAM, directory_ / "alone");
   auto alone = [&](const std::string& rib) {
@@ -49,6 +49,18 @@ TEST_F(SlrenderTest, pictures_and_shadows_need_no_openimageio) {
   EXPECT_EQ(alone("Display \"a.z\" \"zfile\" \"z\" " + scene + "MakeShadow \"a.z\" \"a.shd\""), "");
   EXPECT_TRUE(exists("a.shd"));
   EXPECT_EQ(alone("Hider \"depthmask\" \"zfile\" \"a.shd\" Display \"c\" \"tiff\" \"rgb\" " + scene), "");
+  EXPECT_EQ(
+      alone(
+          "MakeTexture \"a.png\" \"a.tex\" \"black\" \"clamp\" \"gaussian\" 1 1 "
+          "MakeBump \"b.tif\" \"a.bump\" \"black\" \"clamp\" \"box\" 1 1 "
+          "MakeLatLongEnvironment \"b.tif\" \"a.env\" \"triangle\" 9 9 "
+          "MakeCubeFaceEnvironment \"a.png\" \"a.png\" \"b.tif\" \"a.png\" \"b.tif\" \"a.png\" \"b.env\" 90 "
+          "\"box\" 1 1 "),
+      "");
+  for (const char* name : {"a.tex", "a.bump", "a.env", "b.env"})
+    EXPECT_TRUE(exists(name)) << name;
+  EXPECT_THAT(alone("MakeTexture \"none.png\" \"none.tex\" \"black\" \"black\" \"box\" 1 1"),
+              HasSubstr("cannot read \"none.png\": there is no such file"));
   EXPECT_THAT(alone("Display \"a.exr\" \"openexr\" \"rgba\" " + scene),
               HasSubstr("without anemone_images.so (OpenImageIO) there are only TIFF and PNG files"));
 }
