@@ -10,6 +10,7 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <limits>
 #include <numbers>
 
 HWY_BEFORE_NAMESPACE();
@@ -46,10 +47,14 @@ void find_places(const Directions& d, TextureRegions& out) {
             z = hn::Load(kWide, d.centre[2] + i);
     const V across = hn::Add(hn::Mul(x, x), hn::Mul(y, y)), flat = hn::Sqrt(across),
             square = hn::Add(across, hn::Mul(z, z));
-    const V longitude = turn_of(y, x);
-    hn::Store(hn::IfThenElse(hn::Lt(longitude, zero), hn::Add(longitude, one), longitude), kWide, out.s + i);
+    // What is no number leads nowhere: comparisons and minima would lose it.
+    const auto somewhere = hn::And(hn::And(hn::Eq(x, x), hn::Eq(y, y)), hn::Eq(z, z));
+    const V longitude = turn_of(y, x),
+            s = hn::IfThenElse(hn::Lt(longitude, zero), hn::Add(longitude, one), longitude);
+    hn::Store(hn::IfThenElse(somewhere, s, number(std::numeric_limits<float>::quiet_NaN())), kWide,
+              out.s + i);
     hn::Store(hn::Sub(number(0.5f), hn::Mul(turn_of(z, flat), number(2))), kWide, out.t + i);
-    auto change = [&](const Directions::Lanes(&along)[3], float* s, float* t) HWY_ATTR {
+    auto change = [&](const Directions::Lanes(&along)[3], float* s_change, float* t_change) HWY_ATTR {
       const V dx = hn::Load(kWide, along[0] + i), dy = hn::Load(kWide, along[1] + i),
               dz = hn::Load(kWide, along[2] + i);
       const V round = hn::Div(hn::Sub(hn::Mul(x, dy), hn::Mul(y, dx)), hn::Mul(across, number(kTurn)));
@@ -58,8 +63,8 @@ void find_places(const Directions& d, TextureRegions& out) {
           hn::Div(hn::Sub(hn::Mul(z, outward), hn::Mul(flat, dz)), hn::Mul(square, number(kTurn / 2)));
       const auto aside = hn::Gt(across, zero);
       // Next to a pole all longitudes are near.
-      hn::Store(hn::IfThenElseZero(aside, hn::Min(hn::Max(round, number(-1)), one)), kWide, s + i);
-      hn::Store(hn::IfThenElseZero(aside, down), kWide, t + i);
+      hn::Store(hn::IfThenElseZero(aside, hn::Min(hn::Max(round, number(-1)), one)), kWide, s_change + i);
+      hn::Store(hn::IfThenElseZero(aside, down), kWide, t_change + i);
     };
     change(d.along_u, out.s_u, out.t_u);
     change(d.along_v, out.s_v, out.t_v);

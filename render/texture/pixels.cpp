@@ -1,6 +1,5 @@
 #include "render/texture/pixels.h"
 
-#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -27,7 +26,8 @@ void from_floats(std::span<const float> numbers, PixelType type, std::byte* out)
     } else {
       constexpr auto kOne = static_cast<float>(std::numeric_limits<T>::max());
       for (size_t i = 0; i < numbers.size(); ++i) {
-        const float bounded = numbers[i] > 0 ? std::min(numbers[i], 1.0f) : 0.0f; // 0: also what is no number
+        const float x = numbers[i], above = x > 0 ? x : 0.0f; // 0: also what is no number
+        const float bounded = above < 1 ? above : 1.0f;
         const auto value = static_cast<T>(static_cast<int>(bounded * kOne + 0.5f));
         std::memcpy(out + i * sizeof(T), &value, sizeof(T));
       }

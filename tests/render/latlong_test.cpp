@@ -53,8 +53,12 @@ TEST(LatLong, axes_and_nothing) {
       d.centre[c][i] = ways[i][c];
       d.along_u[c][i] = 0.1f;
     }
+  for (size_t i = 0; i < 3; ++i)
+    d.centre[i][10 + i] = std::nanf("");
   TextureRegions out;
   find_latlong(d, out);
+  for (size_t i = 10; i < 13; ++i)
+    EXPECT_TRUE(std::isnan(out.s[i])) << i;
   for (size_t i = 0; i < std::size(ways); ++i) {
     EXPECT_NEAR(out.s[i], ways[i][3], 1e-7f) << i;
     EXPECT_NEAR(out.t[i], ways[i][4], 1e-7f) << i;
