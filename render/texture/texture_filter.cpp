@@ -170,17 +170,8 @@ template <class T> HWY_INLINE V load_channel(const std::byte* const* texels, siz
 }
 
 /// The channels of one texel in each lane, times a weight.
-HWY_INLINE void add_texels(const TextureFilter::Layout& layout, const TextureImage::Level& level, I row,
-                           I column, V weight, V (&sums)[3]) {
-  alignas(64) int32_t rows[kLanes], columns[kLanes];
-  hn::Store(row, kWideInt, rows);
-  hn::Store(column, kWideInt, columns);
-  const std::byte* texels[kLanes];
-  for (size_t k = 0; k < kLanes; ++k)
-    texels[k] =
-        level.texels + layout.first +
-        (static_cast<size_t>(rows[k]) * static_cast<size_t>(level.width) + static_cast<size_t>(columns[k])) *
-            layout.texel;
+HWY_INLINE void add_texels(const TextureFilter::Layout& layout, const std::byte* const* texels, V weight,
+                           V (&sums)[3]) {
   if (layout.type == PixelType::kByte) { // all channels at once
     alignas(64) uint32_t bits[kLanes];
     for (size_t k = 0; k < kLanes; ++k)
@@ -207,6 +198,7 @@ HWY_INLINE void add_texels(const TextureFilter::Layout& layout, const TextureIma
 void look_at(const TextureFilter::Layout& layout, const TextureImage::Level& level, Interpolation way,
              const TextureProbes& probes, float* sums) {
   const V width = number(static_cast<float>(level.width)), height = number(static_cast<float>(level.height));
+  const size_t row_bytes = static_cast<size_t>(level.width) * layout.texel;
   for (size_t i = 0; i < probes.count; i += kLanes) {
     const Taps columns =
                    taps(way, hn::Mul(hn::LoadU(kWide, &probes.s[i]), width), level.width, layout.wrap[0]),
@@ -214,10 +206,21 @@ void look_at(const TextureFilter::Layout& layout, const TextureImage::Level& lev
                    taps(way, hn::Mul(hn::LoadU(kWide, &probes.t[i]), height), level.height, layout.wrap[1]);
     const V weight = hn::LoadU(kWide, &probes.weight[i]);
     V found[3] = {hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide)};
+    alignas(64) int32_t row[kLanes], in_row[4][kLanes];
+    for (size_t x = 0; x < columns.count; ++x)
+      hn::Store(hn::Mul(columns.at[x], hn::Set(kWideInt, static_cast<int32_t>(layout.texel))), kWideInt,
+                in_row[x]);
     for (size_t y = 0; y < rows.count; ++y) {
       const V of_row = hn::Mul(weight, rows.weight[y]);
-      for (size_t x = 0; x < columns.count; ++x)
-        add_texels(layout, level, rows.at[y], columns.at[x], hn::Mul(of_row, columns.weight[x]), found);
+      const std::byte *starts[kLanes], *texels[kLanes];
+      hn::Store(rows.at[y], kWideInt, row);
+      for (size_t k = 0; k < kLanes; ++k)
+        starts[k] = level.texels + layout.first + static_cast<size_t>(row[k]) * row_bytes;
+      for (size_t x = 0; x < columns.count; ++x) {
+        for (size_t k = 0; k < kLanes; ++k)
+          texels[k] = starts[k] + in_row[x][k];
+        add_texels(layout, texels, hn::Mul(of_row, columns.weight[x]), found);
+      }
     }
     for (size_t c = 0; c < layout.channels; ++c) {
       alignas(64) float channel[kLanes];
@@ -290,14 +293,20 @@ void TextureFilter::add_probes(const TextureRegions& r, const TexturePlaces& pla
     const float places_there = in.places[lane], s = in.scale[lane] * places.s[lane],
                 t = in.scale[lane] * places.t[lane];
     const auto count = static_cast<size_t>(places_there), first = probes.add(count);
-    float* weight = &probes.weight[first];
-    float sum = 0;
+    float *at_s = &probes.s[first], *at_t = &probes.t[first], *weight = &probes.weight[first];
+    const float step = 2 / places_there;
+    float sum = places_there;
     for (size_t i = 0; i < count; ++i) {
-      const float x = (2 * static_cast<float>(i) + 1) / places_there - 1;
-      probes.s[first + i] = r.s[lane] + x * s;
-      probes.t[first + i] = r.t[lane] + x * t;
-      probes.sum[first + i] = static_cast<uint32_t>(k * kBlock) + lane;
-      sum += weight[i] = shape(x);
+      const float x = (static_cast<float>(i) + 0.5f) * step - 1;
+      at_s[i] = r.s[lane] + x * s;
+      at_t[i] = r.t[lane] + x * t;
+    }
+    std::fill_n(&probes.sum[first], count, static_cast<uint32_t>(k * kBlock) + lane);
+    std::fill_n(weight, count, 1.0f);
+    if (gaussian_ || triangle_) {
+      sum = 0;
+      for (size_t i = 0; i < count; ++i)
+        sum += weight[i] = shape((static_cast<float>(i) + 0.5f) * step - 1);
     }
     const float part = in.weight[lane] / (sum * one_);
     for (size_t i = 0; i < count; ++i)

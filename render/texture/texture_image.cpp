@@ -1,6 +1,7 @@
 #include "render/texture/texture_image.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace render {
 
@@ -74,6 +75,10 @@ void TextureImage::load(size_t i) const {
   if (l.ready || !problem_.empty()) return;
   const auto channels = static_cast<size_t>(header_.channels),
              row_size = static_cast<size_t>(l.size.width) * channels;
+  if (row_size * bytes_of(header_.type) > std::numeric_limits<int32_t>::max()) { // lookups count in a row
+    problem_ = "its rows are too long";
+    return;
+  }
   const size_t bytes = static_cast<size_t>(l.size.height) * row_size * bytes_of(header_.type);
   std::vector<std::byte> stored(bytes + kReadBeyond);
   const std::span<std::byte> texels(stored.data(), bytes);

@@ -268,6 +268,15 @@ TEST(TextureLevels, odd_sizes_keep_the_mean) {
   EXPECT_EQ(memory, 0);
 }
 
+TEST(TextureLevels, rows_may_be_too_long) {
+  std::atomic<long long> memory{0};
+  const TextureImage image(std::make_unique<Made>(
+                               1 << 16, 1, [](int, int, int) { return 0.0f; }, 1 << 14),
+                           memory);
+  EXPECT_EQ(image.level(0).texels, nullptr);
+  EXPECT_EQ(image.problem(), "its rows are too long");
+}
+
 // ---- Files.
 
 struct TiffKind {
