@@ -65,6 +65,25 @@ TEST_F(SlrenderTest, pictures_and_maps_need_no_openimageio) {
               HasSubstr("without anemone_images.so (OpenImageIO) there are only TIFF and PNG files"));
 }
 
+/// The same map again and again: what is there under its name is always the whole of it.
+TEST_F(SlrenderTest, killed_while_it_makes_maps_it_leaves_whole_files) {
+  file("image.rib",
+       "Format 500 500 1 PixelSamples 1 1 Display \"a.tif\" \"tiff\" \"rgb\" WorldBegin Translate 0 0 5 "
+       "Sphere 1 -1 1 360 WorldEnd MakeTexture \"a.tif\" \"a.tex\" \"black\" \"black\" \"box\" 1 1");
+  EXPECT_EQ(run("image.rib").status, 0);
+  const auto size = fs::file_size(directory_ / "a.tex");
+  std::string maps;
+  for (int i = 0; i < 200; ++i)
+    maps += "MakeTexture \"a.tif\" \"a.tex\" \"black\" \"black\" \"box\" 1 1\n";
+  file("maps.rib", maps);
+  for (int i = 0; i < 8; ++i) {
+    const std::string command = fmt::format("cd '{}' && timeout -s KILL {} '{}' maps.rib",
+                                            directory_.string(), 0.05 + 0.043 * i, SLRENDER_PROGRAM);
+    EXPECT_NE(std::system(command.c_str()), 0);
+    EXPECT_EQ(fs::file_size(directory_ / "a.tex"), size);
+  }
+}
+
 TEST_F(SlrenderTest, statistics_as_text_and_json) {
   file("a.rib", kScene);
   Outcome o = run("-statistics -statisticsfile s.json -t:1 a.rib");
