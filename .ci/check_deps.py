@@ -43,12 +43,16 @@ ALLOWED = {
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
     "render": ["public", "stdlib/scattering", "stdlib/subsurface/octree", "stdlib/subsurface/vec3", "render/hider/quad_coverage",
-               "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights", "render/rays/hemisphere_aim"],
+               "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights", "render/rays/hemisphere_aim",
+               "render/texture/latlong", "render/texture/shadow_map", "render/texture/texture_filter"],
     # Compiled once for each SIMD target.
     "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
     "render/hider/quad_paint": ["render", "public", "slvm/wide/targets"],
     "render/hider/window_weights": ["render", "public", "slvm/wide/targets"],
     "render/rays/hemisphere_aim": ["render", "public", "slvm/wide/targets"],
+    "render/texture/latlong": ["render", "public", "slvm/wide/targets"],
+    "render/texture/shadow_map": ["render", "public", "slvm/wide/targets"],
+    "render/texture/texture_filter": ["render", "public", "slvm/wide/targets"],
     # What slrender and the C interface share: shaders are compiled on the fly.
     "render/setup": ["render", "slc", "public"],
     "render/ri": ["render", "public"],
@@ -69,11 +73,12 @@ ALLOWED = {
 OUTSIDE = {
     r"embree[34]/": ["render/rays", "tests/bench"],
     r"OpenImageIO/": ["render/oiio", "tests/render", "tests/bench/textures", "slvm/tools/sltest"],
-    r"(?:tiffio|png)\.h": ["render/texture", "slvm/support/tiff_open", "slvm/support/tiff_pixels"],
+    r"(?:tiffio|png)\.h": ["render/texture", "slvm/support/tiff_open", "slvm/support/tiff_pixels",
+                          "tests/render/textures_test"],
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
     r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_coverage", "render/hider/quad_hits", "render/hider/quad_paint",
-             "render/hider/window_weights", "render/rays/hemisphere_aim", "stdlib/subsurface/dipole_block", "tests/bench", "tests/unit/kernels"],
+             "render/hider/window_weights", "render/rays/hemisphere_aim", "render/texture/latlong", "render/texture/shadow_map", "render/texture/texture_filter", "stdlib/subsurface/dipole_block", "tests/bench", "tests/unit/kernels"],
     r"sleef": ["slvm/wide", "slvm/kernels", "tests/unit/kernels"],
     r"opensubdiv/": ["render/prims"],
     r"CLI/": ["slc/tools", "slvm/tools", "render/tools", "stdlib/tools"],

@@ -19,21 +19,21 @@ std::string locate(const std::string& name, const Options& options) {
 /// The filters of pixels that are known between levels of a map, too.
 std::string settings_of(const RequestCall& call, int swrap, int filter, MakeSettings& out) {
   for (int i = swrap; swrap >= 0 && i < swrap + 2; ++i) {
-    const std::string& wrap = call.text(i);
-    if (wrap != "black" && wrap != "periodic" && wrap != "clamp")
-      return fmt::format("unknown wrap \"{}\"; known are black, periodic, clamp", wrap);
-    (i == swrap ? out.swrap : out.twrap) = wrap;
+    const std::optional<TextureWrap> wrap = find_wrap(call.text(i));
+    if (!wrap) return fmt::format("unknown wrap \"{}\"; known are black, periodic, clamp", call.text(i));
+    (i == swrap ? out.swrap : out.twrap) = *wrap;
   }
   constexpr std::string_view kFilters[] = {"box",      "triangle", "catmull-rom",
                                            "b-spline", "gaussian", "mitchell",
                                            "sinc",     "disk",     "blackman-harris"};
-  out.filter = call.text(filter);
-  if (std::find(std::begin(kFilters), std::end(kFilters), out.filter) == std::end(kFilters))
-    return fmt::format("unknown filter \"{}\"; known are {}", out.filter, fmt::join(kFilters, ", "));
-  for (auto [width, name] : {std::pair(&out.swidth, "swidth"), {&out.twidth, "twidth"}}) {
+  const std::string& name = call.text(filter);
+  if (std::find(std::begin(kFilters), std::end(kFilters), name) == std::end(kFilters))
+    return fmt::format("unknown filter \"{}\"; known are {}", name, fmt::join(kFilters, ", "));
+  out.filter = *find_filter(name);
+  for (auto [width, what] : {std::pair(&out.swidth, "swidth"), {&out.twidth, "twidth"}}) {
     *width = call.number(++filter);
     if (!(*width > 0) || *width > 1e5f)
-      return fmt::format("{} is a number of pixels above 0, found {:g}", name, *width);
+      return fmt::format("{} is a number of pixels above 0, found {:g}", what, *width);
   }
   return {};
 }
@@ -50,13 +50,13 @@ std::string make_map(const RequestCall& call, const Options& options) {
     if (std::string why = settings_of(call, 2, 4, settings); !why.empty()) return why;
     return make_bump(locate(call.text(0), options), call.text(1), settings);
   case RequestId::kMakeLatLongEnvironment:
-    settings.swrap = "periodic";
-    settings.twrap = "clamp";
+    settings.swrap = TextureWrap::kPeriodic;
+    settings.twrap = TextureWrap::kClamp;
     if (std::string why = settings_of(call, -1, 2, settings); !why.empty()) return why;
     return make_latlong(locate(call.text(0), options), call.text(1), settings);
   case RequestId::kMakeCubeFaceEnvironment: {
-    settings.swrap = "periodic";
-    settings.twrap = "clamp";
+    settings.swrap = TextureWrap::kPeriodic;
+    settings.twrap = TextureWrap::kClamp;
     if (std::string why = settings_of(call, -1, 8, settings); !why.empty()) return why;
     float fov = call.number(7);
     if (!(fov >= 90) || !(fov < 180))

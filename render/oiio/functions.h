@@ -10,11 +10,5 @@ std::unique_ptr<TextureReader> open_texture(const std::string& path, std::string
 bool knows_format(const std::string& name);
 std::string write_image(const ImageFile&);
 std::string read_depth(const std::string& path, DepthImage&);
-std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings&);
-std::string make_bump(const std::string& image, const std::string& bump, const MakeSettings&);
-std::string make_latlong(const std::string& image, const std::string& texture, const MakeSettings&);
-std::string make_cube_environment(const std::array<std::string, 6>& faces, const std::string& texture,
-                                  float fov, const MakeSettings&);
-std::string make_shadow(const std::string& depths, const std::string& shadow);
 
 } // namespace render::oiio

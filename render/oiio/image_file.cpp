@@ -2,6 +2,8 @@
 #include "render/texture/image_file.h"
 
 #include "render/oiio/functions.h"
+#include "render/oiio/pixel_types.h"
+#include "render/texture/shrink.h"
 
 #include <OpenImageIO/imageio.h>
 
@@ -11,9 +13,8 @@ namespace render::oiio {
 
 namespace {
 
-OIIO::TypeDesc type_of(PixelType type) {
-  if (type == PixelType::kByte) return OIIO::TypeDesc::UINT8;
-  return type == PixelType::kShort ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+void add_matrix(const char* name, const std::array<float, 16>& matrix, OIIO::ImageSpec& spec) {
+  if (matrix != std::array<float, 16>{}) spec.attribute(name, OIIO::TypeMatrix, matrix.data());
 }
 
 /// Whole numbers as such: formats want them so.
@@ -31,13 +32,7 @@ void add_attribute(const std::string& name, const slvm::Value& value, OIIO::Imag
                    value.numbers.data());
 }
 
-} // namespace
-
-bool knows_format(const std::string& name) {
-  return OIIO::ImageOutput::create(name) != nullptr;
-}
-
-std::string write_image(const ImageFile& image) {
+OIIO::ImageSpec spec_of(const ImageFile& image) {
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(image.channels.size()),
                        type_of(image.type));
   spec.x = image.x;
@@ -49,19 +44,50 @@ std::string write_image(const ImageFile& image) {
   spec.z_channel = image.channel("Z");
   spec.attribute("Software", "Anemone slrender");
   spec.attribute("PixelAspectRatio", image.pixel_aspect);
-  spec.attribute("worldtocamera", OIIO::TypeMatrix, image.world_to_camera.data());
-  spec.attribute("worldtoscreen", OIIO::TypeMatrix, image.world_to_screen.data());
+  add_matrix("worldtocamera", image.world_to_camera, spec);
+  add_matrix("worldtoscreen", image.world_to_screen, spec);
+  if (!image.texture_format.empty()) spec.attribute("textureformat", image.texture_format);
+  if (!image.wraps.empty()) spec.attribute("wrapmodes", image.wraps);
   // Rendered noise hardly gets smaller by trying harder.
   spec.attribute("tiff:zipquality", 2);
   spec.attribute("png:compressionLevel", 2);
   for (const auto& [name, value] : image.attributes)
     add_attribute(name, value, spec);
   if (!image.compression.empty()) spec.attribute("compression", image.compression);
+  return spec;
+}
+
+/// Each after the one before, in the same file.
+bool write_levels(OIIO::ImageOutput& out, const ImageFile& image, OIIO::ImageSpec spec) {
+  spec.tile_width = spec.tile_height = ImageFile::kTile;
+  spec.attribute("openexr:levelmode", 1); // a mip-map
+  if (!out.open(image.path, spec) || !out.write_image(spec.format, image.pixels.data())) return false;
+  for (const std::vector<std::byte>& level : image.levels) {
+    const ImageSize size = half_of({spec.width, spec.height});
+    spec.full_width = spec.width = size.width;
+    spec.full_height = spec.height = size.height;
+    if (!out.open(image.path, spec, OIIO::ImageOutput::AppendMIPLevel) ||
+        !out.write_image(spec.format, level.data()))
+      return false;
+  }
+  return out.close();
+}
+
+} // namespace
+
+bool knows_format(const std::string& name) {
+  return OIIO::ImageOutput::create(name) != nullptr;
+}
+
+std::string write_image(const ImageFile& image) {
+  const OIIO::ImageSpec spec = spec_of(image);
   auto out = OIIO::ImageOutput::create(image.format);
   if (!out) return OIIO::geterror();
-  if (out->open(image.path, spec) && out->write_image(spec.format, image.pixels.data()) && out->close())
-    return {};
-  return out->geterror();
+  const bool written =
+      image.levels.empty()
+          ? out->open(image.path, spec) && out->write_image(spec.format, image.pixels.data()) && out->close()
+          : write_levels(*out, image, spec);
+  return written ? "" : out->geterror();
 }
 
 } // namespace render::oiio

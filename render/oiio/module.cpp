@@ -4,6 +4,5 @@
 
 extern "C" void anemone_image_module(render::ImageModule* table) {
   using namespace render::oiio;
-  *table = {"",           open_texture, knows_format, write_image,           read_depth,
-            make_texture, make_bump,    make_latlong, make_cube_environment, make_shadow};
+  *table = {"", open_texture, knows_format, write_image, read_depth};
 }

@@ -1,5 +1,6 @@
 // Textures in all the formats of OpenImageIO.
 #include "render/oiio/functions.h"
+#include "render/oiio/pixel_types.h"
 #include "render/oiio/spec_matrix.h"
 #include "render/texture/texture_image.h"
 
@@ -11,25 +12,17 @@ namespace render::oiio {
 
 namespace {
 
-OIIO::TypeDesc type_of(TexelType type) {
-  return type == TexelType::kByte    ? OIIO::TypeDesc::UINT8
-         : type == TexelType::kShort ? OIIO::TypeDesc::UINT16
-                                     : OIIO::TypeDesc::FLOAT;
-}
-
 class Reader : public TextureReader {
 public:
   explicit Reader(std::unique_ptr<OIIO::ImageInput> in) : in_(std::move(in)) {
     const OIIO::ImageSpec spec = in_->spec();
     header_.channels = spec.nchannels;
-    header_.type = spec.format == OIIO::TypeDesc::UINT8    ? TexelType::kByte
-                   : spec.format == OIIO::TypeDesc::UINT16 ? TexelType::kShort
-                                                           : TexelType::kFloat;
+    header_.type = type_for(spec.format);
     header_.format = spec.get_string_attribute("textureformat");
     set_wraps(std::string(spec.get_string_attribute("wrapmodes")), header_);
     header_.world_to_camera = matrix(spec, "worldtocamera");
     header_.world_to_screen = matrix(spec, "worldtoscreen");
-    TextureHeader::Size size{spec.width, spec.height};
+    ImageSize size{spec.width, spec.height};
     do {
       header_.levels.push_back(size);
       const OIIO::ImageSpec next = in_->spec_dimensions(0, static_cast<int>(header_.levels.size()));

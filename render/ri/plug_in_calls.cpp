@@ -11,7 +11,7 @@ PlugInCalls::~PlugInCalls() = default;
 
 std::function<void(slvm::SourceRange, const std::function<void()>&)> PlugInCalls::around() {
   return [this](slvm::SourceRange where, const std::function<void()>& functions) {
-    context_->run(where, functions);
+    context().run(where, functions);
   };
 }
 
@@ -24,7 +24,14 @@ void PlugInCalls::attach(Renderer& renderer, slvm::Diagnostics& diagnostics) {
     else
       diagnostics.warning(context_->where(), "rib", text);
   };
-  context_ = std::make_unique<Context>(std::make_unique<AttachedBackend>(renderer, diagnostics), report);
+  make_ = [report, &renderer, &diagnostics] {
+    return std::make_unique<Context>(std::make_unique<AttachedBackend>(renderer, diagnostics), report);
+  };
+}
+
+Context& PlugInCalls::context() {
+  std::call_once(made_, [this] { context_ = make_(); });
+  return *context_;
 }
 
 } // namespace render::ri

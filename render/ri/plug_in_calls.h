@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 
 namespace render::ri {
 
@@ -21,6 +22,10 @@ public:
   void attach(Renderer& renderer, slvm::Diagnostics& diagnostics);
 
 private:
+  Context& context();
+
+  std::function<std::unique_ptr<Context>()> make_;
+  std::once_flag made_; ///< when it is first needed: most scenes have no plug-ins
   std::unique_ptr<Context> context_;
 };
 

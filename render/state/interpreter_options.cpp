@@ -297,7 +297,8 @@ bool width_is_lost(const RequestCall& call) {
   if (call.id == RequestId::kMakeShadow) return false;
   bool flat = call.id == RequestId::kMakeTexture || call.id == RequestId::kMakeBump;
   int filter = flat ? 4 : call.id == RequestId::kMakeLatLongEnvironment ? 2 : 8;
-  return !has_width(call.text(filter)) && call.number(filter + 1) * call.number(filter + 2) != 1;
+  const std::optional<FilterKind> kind = find_filter(call.text(filter));
+  return !(kind && has_width(*kind)) && call.number(filter + 1) * call.number(filter + 2) != 1;
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "render/state/math.h"
 #include "render/state/shader_request.h"
+#include "render/texture/filter_kind.h"
 #include "slvm/value.h"
 
 #include <array>
@@ -17,25 +18,6 @@
 namespace render {
 
 enum class ProjectionKind : uint8_t { kOrthographic, kPerspective };
-enum class FilterKind : uint8_t {
-  kBox,
-  kTriangle,
-  kGaussian,
-  kCatmullRom,
-  kBSpline,
-  kSinc,
-  kMitchell,
-  kDisk,
-  kSeparableCatmullRom,
-  kBlackmanHarris,
-  kLanczos,
-  kBessel,
-  kFunction, ///< PixelFilter::function
-};
-/// By the name a scene uses: "box", "catmull-rom"...
-std::optional<FilterKind> find_filter(std::string_view name);
-/// All names, for messages.
-std::string filter_names();
 
 struct PixelFilter {
   FilterKind kind = FilterKind::kGaussian;

@@ -4,11 +4,11 @@
 #include "render/texture/image_file.h"
 #include "render/texture/image_module.h"
 #include "render/texture/texture_tiff.h"
-#include "render/texture/tiff_file.h"
 #include "slvm/support/whole_file.h"
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
 namespace render {
 
@@ -16,7 +16,7 @@ bool read_depth_tiff(const std::string& path, DepthImage& out) {
   const auto reader = open_tiff_texture(path);
   if (!reader) return false;
   const TextureHeader& header = reader->header();
-  if (header.channels != 1 || header.type != TexelType::kFloat) return false;
+  if (header.channels != 1 || header.type != PixelType::kFloat) return false;
   out.width = header.levels[0].width;
   out.height = header.levels[0].height;
   out.depth.assign(static_cast<size_t>(out.width) * static_cast<size_t>(out.height), 0.0f);
@@ -36,7 +36,7 @@ std::string write_depth_image(const std::string& path, const DepthImage& image,
   slvm::WholeFile whole(path);
   ImageFile file;
   file.path = whole.temporary();
-  file.format = "tiff";
+  file.format = std::filesystem::path(path).extension() == ".exr" ? "openexr" : "tiff";
   file.texture_format = texture_format;
   file.type = PixelType::kFloat;
   file.width = file.full_width = image.width;
@@ -48,7 +48,7 @@ std::string write_depth_image(const std::string& path, const DepthImage& image,
     std::copy_n(image.world_to_screen.begin(), 16, file.world_to_screen.begin());
   file.pixels.resize(image.depth.size() * sizeof(float));
   std::memcpy(file.pixels.data(), image.depth.data(), file.pixels.size());
-  std::string why = write_tiff(file);
+  std::string why = write_image_file(file);
   return why.empty() ? whole.commit() : why;
 }
 

@@ -17,8 +17,8 @@ struct DepthImage {
 bool read_depth_tiff(const std::string& path, DepthImage& out);
 /// "" or why there is none.
 std::string read_depth_image(const std::string& path, DepthImage& out);
-/// As a TIFF file of floats, whole or not at all. `texture_format`: "Shadow" for a shadow map, else empty. ""
-/// or what went wrong.
+/// As a TIFF file of floats (OpenEXR if the name ends so), whole or not at all. `texture_format`: "Shadow"
+/// for a shadow map, else empty. "" or what went wrong.
 std::string write_depth_image(const std::string& path, const DepthImage& image,
                               const std::string& texture_format = {});
 

@@ -2,18 +2,16 @@
 // others by OpenImageIO's module (image_module.h), which takes longer to load than most frames to render.
 #pragma once
 
+#include "render/texture/pixels.h"
 #include "slvm/value.h"
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace render {
-
-enum class PixelType : uint8_t { kByte, kShort, kFloat };
 
 struct ImageFile {
   std::string path;
@@ -25,10 +23,16 @@ struct ImageFile {
   int full_width = 0, full_height = 0; ///< of the whole frame
   std::vector<std::string> channels;   ///< "R", "G", "B", "A", "Z" and names of variables
   float pixel_aspect = 1;
-  std::array<float, 16> world_to_camera{}, world_to_screen{}; ///< by rows
+  std::array<float, 16> world_to_camera{}, world_to_screen{}; ///< by rows; zeros: none
   std::map<std::string, slvm::Value> attributes;              ///< others, by OpenImageIO's names
-  std::string texture_format;                                 ///< "Shadow" for a shadow map, else empty
   std::vector<std::byte> pixels; ///< of `type`, channels of a pixel side by side, row by row from the top
+  /// Of maps: "Shadow", "Plain Texture", "LatLong Environment", and what is beyond the sides,
+  /// "periodic,clamp".
+  std::string texture_format, wraps;
+  std::vector<std::vector<std::byte>>
+      levels; ///< of a mip-map, in tiles: those after `pixels`, each half as large
+
+  static constexpr int kTile = 64; ///< side of a tile of a mip-map
 
   int channel(const std::string& name) const; ///< its place, or -1
 };

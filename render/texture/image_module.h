@@ -1,9 +1,7 @@
 // What OpenImageIO does for the renderer: a module, anemone_images.so, since that library and the two hundred
 // below it take a fifth of a second and a hundred megabytes to load. It is loaded when it is first needed:
-// for making maps, and for files other than TIFF and PNG.
+// for files other than TIFF and PNG.
 #pragma once
-
-#include "render/texture/make_maps.h"
 
 #include <memory>
 #include <string>
@@ -21,12 +19,6 @@ struct ImageModule {
   bool (*knows_format)(const std::string& name) = nullptr; ///< a format that can be written
   std::string (*write_image)(const ImageFile&) = nullptr;
   std::string (*read_depth)(const std::string& path, DepthImage&) = nullptr;
-  std::string (*make_texture)(const std::string&, const std::string&, const MakeSettings&) = nullptr;
-  std::string (*make_bump)(const std::string&, const std::string&, const MakeSettings&) = nullptr;
-  std::string (*make_latlong)(const std::string&, const std::string&, const MakeSettings&) = nullptr;
-  std::string (*make_cube_environment)(const std::array<std::string, 6>&, const std::string&, float,
-                                       const MakeSettings&) = nullptr;
-  std::string (*make_shadow)(const std::string&, const std::string&) = nullptr;
 };
 
 /// Loaded at the first call, from beside this program or from where it is installed.

@@ -1,24 +1,26 @@
-// Textures, environment and shadow maps from images: tiled mip-maps by OpenImageIO. Functions return "" or
-// why no map was made; a file that exists is then as it was.
+// Textures, environment and shadow maps from images: tiled mip-maps. Functions return "" or why no map was
+// made; a file that exists is then as it was.
 #pragma once
+
+#include "render/texture/filter_kind.h"
+#include "render/texture/wrap.h"
 
 #include <array>
 #include <string>
-#include <string_view>
 
 namespace render {
 
 struct MakeSettings {
-  std::string swrap = "black", twrap = "black"; ///< "black", "periodic", "clamp"
-  std::string filter = "box";                   ///< between the levels
+  TextureWrap swrap = TextureWrap::kBlack, twrap = TextureWrap::kBlack;
+  FilterKind filter = FilterKind::kBox; ///< between the levels
   /// In pixels of the image. Wider filters than are usual (widens()) soften the map.
   float swidth = 1, twidth = 1;
 };
 
 /// Whether the width of this filter counts at all: of "box", "triangle", "gaussian".
-bool has_width(std::string_view filter);
+bool has_width(FilterKind filter);
 /// Whether a filter of this width is wider than it usually is: a box than 1, the others than 2.
-bool widens(std::string_view filter, float width);
+bool widens(FilterKind filter, float width);
 
 std::string make_texture(const std::string& image, const std::string& texture, const MakeSettings&);
 /// A texture of heights: the first channel of the image.

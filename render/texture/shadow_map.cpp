@@ -1,59 +1,114 @@
+// As many regions at a time as the processor has lanes.
 #include "render/texture/shadow_map.h"
 
-#include <algorithm>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/texture/shadow_map.cpp"
+#include <hwy/foreach_target.h>
 
+#include "slvm/wide/targets.h"
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace render {
-namespace {
+namespace HWY_NAMESPACE {
 
-// Steps of two low-discrepancy sequences: points that fill the square evenly, whatever their number.
-constexpr float kGolden = 0.754877666f, kGoldenSquared = 0.569840291f;
+namespace hn = hwy::HWY_NAMESPACE;
 
-/// The next number of a sequence in [0, 1), by a step below 1.
-float next(float x, float step) {
-  x += step;
-  return x < 1 ? x : x - 1;
-}
+constexpr hn::CappedTag<float, ShadowRegions::kBlock> kWide;
+constexpr hn::RebindToSigned<decltype(kWide)> kWideInt;
+constexpr hn::RebindToUnsigned<decltype(kWide)> kWideBits;
+constexpr size_t kLanes = hn::MaxLanes(kWide);
+using V = hn::Vec<decltype(kWide)>;
 
-/// A coordinate of the region's points: linear in how far they are along its two sides.
+// Two low-discrepancy sequences: points that fill the square evenly, whatever their number. The steps, in
+// parts of 2^32.
+constexpr uint32_t kGolden = 3242174889u, kGoldenSquared = 2447445414u;
+
+/// What regions have at their points: linear in how far these are along the two sides.
 struct Coordinate {
-  float centre, along_u, along_v;
+  V centre, along_u, along_v;
 
-  Coordinate(const slvm::Matrix4& m, int column, const ShadowMap::Region& r)
-      : centre(vector(m, column, r.centre) + m(3, column)), along_u(vector(m, column, r.along_u)),
-        along_v(vector(m, column, r.along_v)) {}
-  float at(float a, float b) const { return centre + a * along_u + b * along_v; }
-
-private:
-  static float vector(const slvm::Matrix4& m, int c, const float (&v)[3]) {
-    return v[0] * m(0, c) + v[1] * m(1, c) + v[2] * m(2, c);
+  /// The coordinate of a transform, of the regions from `i`.
+  HWY_INLINE Coordinate(const slvm::Matrix4& m, int column, const ShadowRegions& r, size_t i) {
+    auto transform = [&](const ShadowRegions::Lanes(&v)[3]) HWY_ATTR {
+      V sum = hn::Mul(hn::Load(kWide, v[0] + i), hn::Set(kWide, m(0, column)));
+      sum = hn::Add(sum, hn::Mul(hn::Load(kWide, v[1] + i), hn::Set(kWide, m(1, column))));
+      return hn::Add(sum, hn::Mul(hn::Load(kWide, v[2] + i), hn::Set(kWide, m(2, column))));
+    };
+    centre = hn::Add(transform(r.centre), hn::Set(kWide, m(3, column)));
+    along_u = transform(r.along_u);
+    along_v = transform(r.along_v);
+  }
+  HWY_INLINE V at(V u, V v) const {
+    return hn::Add(hn::Add(centre, hn::Mul(u, along_u)), hn::Mul(v, along_v));
+  }
+  HWY_INLINE bool is_point() const {
+    const V zero = hn::Zero(kWide);
+    return hn::AllTrue(kWide, hn::And(hn::Eq(along_u, zero), hn::Eq(along_v, zero)));
   }
 };
 
-} // namespace
+/// Of a number of the sequence: from -1/2 to 1/2.
+HWY_INLINE V place(hn::Vec<decltype(kWideBits)> bits) {
+  const V part = hn::ConvertTo(kWide, hn::BitCast(kWideInt, hn::ShiftRight<8>(bits)));
+  return hn::Sub(hn::Mul(part, hn::Set(kWide, 0x1p-24f)), hn::Set(kWide, 0.5f));
+}
 
-float ShadowMap::shadowed(const Region& r) const {
-  const Coordinate x(world_to_screen, 0, r), y(world_to_screen, 1, r), w(world_to_screen, 3, r),
-      z(world_to_camera, 2, r);
-  const auto columns = static_cast<float>(width), rows = static_cast<float>(height);
-  // In front of the camera and inside the map only; elsewhere there is no shadow.
-  auto hidden = [&](float a, float b) {
-    const float at_w = w.at(a, b), at_z = z.at(a, b);
-    if (!(at_w > 0) || !(at_z > 0)) return false;
-    const float half = 0.5f / at_w, s = 0.5f + half * x.at(a, b) + a * r.sblur,
-                t = 0.5f - half * y.at(a, b) + b * r.tblur;
-    if (!(s >= 0 && s < 1 && t >= 0 && t < 1)) return false;
-    const int i = std::min(static_cast<int>(s * columns), width - 1);
-    const int j = std::min(static_cast<int>(t * rows), height - 1);
-    return at_z > depth[static_cast<size_t>(j) * static_cast<size_t>(width) + static_cast<size_t>(i)] + r.bias;
-  };
-  auto wide = [](const float(&v)[3]) { return v[0] != 0 || v[1] != 0 || v[2] != 0; };
-  const bool point = !wide(r.along_u) && !wide(r.along_v) && r.sblur == 0 && r.tblur == 0;
-  if (point || r.samples <= 1) return hidden(0, 0) ? 1.0f : 0.0f;
-  float a = static_cast<float>(r.seed & 0xffff) / 65536.0f, b = a;
-  int count = 0;
-  for (int i = 0; i < r.samples; ++i, a = next(a, kGolden), b = next(b, kGoldenSquared))
-    count += hidden(a - 0.5f, b - 0.5f);
-  return static_cast<float>(count) / static_cast<float>(r.samples);
+/// The part of the points hidden from the camera, for as many regions as lanes.
+HWY_INLINE V part_hidden(const ShadowMap& map, const ShadowRegions& r, size_t i) {
+  const Coordinate x(r.to_screen, 0, r, i), y(r.to_screen, 1, r, i), w(r.to_screen, 3, r, i),
+      z(r.to_camera, 2, r, i);
+  const V zero = hn::Zero(kWide), one = hn::Set(kWide, 1.0f), middle = hn::Set(kWide, 0.5f);
+  const V sblur = hn::Load(kWide, r.sblur + i), tblur = hn::Load(kWide, r.tblur + i),
+          bias = hn::Load(kWide, r.bias + i);
+  const V columns = hn::Set(kWide, static_cast<float>(map.width)),
+          rows = hn::Set(kWide, static_cast<float>(map.height));
+  const auto last_column = hn::Set(kWideInt, map.width - 1), last_row = hn::Set(kWideInt, map.height - 1),
+             width = hn::Set(kWideInt, map.width);
+  const bool sharp = hn::AllTrue(kWide, hn::And(hn::Eq(sblur, zero), hn::Eq(tblur, zero)));
+  const bool points =
+      r.samples <= 1 || (sharp && x.is_point() && y.is_point() && w.is_point() && z.is_point());
+  const int samples = points ? 1 : r.samples;
+  auto a = hn::Load(kWideBits, r.turn + i), b = a;
+  V hidden = zero;
+  for (int k = 0; k < samples; ++k) {
+    const V u = points ? zero : place(a), v = points ? zero : place(b);
+    a = hn::Add(a, hn::Set(kWideBits, kGolden));
+    b = hn::Add(b, hn::Set(kWideBits, kGoldenSquared));
+    const V at_w = w.at(u, v), at_z = z.at(u, v), half = hn::Div(middle, at_w);
+    const V s = hn::Add(hn::Add(middle, hn::Mul(half, x.at(u, v))), hn::Mul(u, sblur)),
+            t = hn::Add(hn::Sub(middle, hn::Mul(half, y.at(u, v))), hn::Mul(v, tblur));
+    // In front of the camera and inside the map only; elsewhere there is no shadow.
+    auto inside = [&](V x01) HWY_ATTR { return hn::And(hn::Ge(x01, zero), hn::Lt(x01, one)); };
+    const auto seen = hn::And(hn::And(hn::Gt(at_w, zero), hn::Gt(at_z, zero)), hn::And(inside(s), inside(t)));
+    if (hn::AllFalse(kWide, seen)) continue;
+    // Just below 1, s times the columns may be all of them.
+    const auto column = hn::Min(hn::ConvertTo(kWideInt, hn::IfThenElseZero(seen, hn::Mul(s, columns))),
+                                last_column),
+               row = hn::Min(hn::ConvertTo(kWideInt, hn::IfThenElseZero(seen, hn::Mul(t, rows))), last_row);
+    const V depth = hn::GatherIndex(kWide, map.depth.data(), hn::Add(hn::Mul(row, width), column));
+    hidden = hn::Add(hidden, hn::IfThenElseZero(hn::And(seen, hn::Gt(at_z, hn::Add(depth, bias))), one));
+  }
+  return hn::Div(hidden, hn::Set(kWide, static_cast<float>(samples)));
+}
+
+void shadowed(const ShadowMap& map, const ShadowRegions& r, float* out) {
+  for (size_t i = 0; i < ShadowRegions::kBlock; i += kLanes)
+    hn::StoreU(part_hidden(map, r, i), kWide, out + i);
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace render {
+const auto kShadowed = SL_BEST(shadowed);
+
+void ShadowMap::shadowed(const ShadowRegions& regions, float (&out)[ShadowRegions::kBlock]) const {
+  kShadowed(*this, regions, out);
 }
 
 } // namespace render
+#endif

@@ -3,28 +3,34 @@
 
 #include "slvm/support/matrix.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace render {
 
-class ShadowMap {
-public:
+/// Regions of space, each about a centre, by the changes along its two sides; many at a time, by component.
+/// The transforms of a map are to be those from their space.
+struct ShadowRegions {
+  static constexpr size_t kBlock = 16;
+  using Lanes = float[kBlock];
+
+  alignas(64) Lanes centre[3] = {}, along_u[3] = {}, along_v[3] = {};
+  alignas(64) Lanes sblur = {}, tblur = {}; ///< enlarge it by this part of the map
+  alignas(64) Lanes bias = {};
+  alignas(64) uint32_t turn[kBlock] = {}; ///< of the sample pattern: 2^32 is all of it
+  int samples = 16;
+  slvm::Matrix4 to_camera, to_screen;
+};
+
+struct ShadowMap {
   int width = 0, height = 0;
   std::vector<float> depth; ///< camera z of the nearest surface, row by row from the top
   slvm::Matrix4 world_to_camera, world_to_screen;
 
-  /// A region of space about `centre`, in world space, by the changes along its two sides.
-  struct Region {
-    float centre[3], along_u[3], along_v[3];
-    float sblur = 0, tblur = 0; ///< enlarge it by this part of the map
-    float bias = 0;
-    int samples = 16;
-    uint32_t seed = 0; ///< turns the sample pattern
-  };
-  /// The part of the region that is farther from the camera than the map says (percentage closer filtering,
+  /// The part of each region that is farther from the camera than the map says (percentage closer filtering,
   /// Reeves, Salesin and Cook 1987): depths are compared first, then averaged.
-  float shadowed(const Region&) const;
+  void shadowed(const ShadowRegions& regions, float (&out)[ShadowRegions::kBlock]) const;
 };
 
 } // namespace render

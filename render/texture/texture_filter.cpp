@@ -1,92 +1,269 @@
+// Regions become places to look at, and places texels, as many at a time as the processor has lanes.
 #include "render/texture/texture_filter.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/texture/texture_filter.cpp"
+#include <hwy/foreach_target.h>
+
+#include "slvm/wide/targets.h"
+
+#include <hwy/contrib/math/math-inl.h>
+#include <hwy/highway.h>
+
 #include <cstring>
-#include <limits>
 
+HWY_BEFORE_NAMESPACE();
 namespace render {
+namespace HWY_NAMESPACE {
 
-namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr hn::CappedTag<float, TextureRegions::kBlock> kWide;
+constexpr hn::RebindToSigned<decltype(kWide)> kWideInt;
+constexpr hn::RebindToUnsigned<decltype(kWide)> kWideBits;
+constexpr size_t kLanes = hn::MaxLanes(kWide);
+using V = hn::Vec<decltype(kWide)>;
+using I = hn::Vec<decltype(kWideInt)>;
 
 /// A texel of a level is a box as wide as itself, bilinear interpolation a tent of twice that: together they
 /// spread as a box does that is wider by this.
 constexpr float kSpread = 1.7320508f;
 
-/// The place of a texel within the image, or -1 for nothing.
-int wrapped(int i, int size, TextureWrap wrap) {
-  if (i >= 0 && i < size) return i;
-  switch (wrap) {
-  case TextureWrap::kPeriodic: i %= size; return i < 0 ? i + size : i;
-  case TextureWrap::kClamp: return i < 0 ? 0 : size - 1;
-  case TextureWrap::kBlack: return -1;
+HWY_INLINE V number(float x) {
+  return hn::Set(kWide, x);
+}
+HWY_INLINE V square(V x) {
+  return hn::Mul(x, x);
+}
+
+HWY_INLINE auto is_finite(V x) {
+  return hn::Eq(hn::Sub(x, x), hn::Zero(kWide));
+}
+
+/// How many places of a level have the spread of the longest axis, and how far apart.
+HWY_INLINE void spread_places(V longest, I level, float most, size_t i, TexturePlaces& out, size_t k) {
+  const V texel = hn::BitCast(kWide, hn::ShiftLeft<23>(hn::Add(level, hn::Set(kWideInt, 127)))),
+          one = number(1);
+  const V rest =
+      hn::Sqrt(hn::Max(hn::Sub(square(longest), square(hn::Mul(texel, number(kSpread)))), hn::Zero(kWide)));
+  const V places = hn::Min(hn::Max(hn::Ceil(hn::Add(hn::Div(rest, texel), number(0.5f))), one), number(most));
+  const V whole = hn::Mul(longest, hn::Sqrt(hn::Sub(one, hn::Div(one, square(places)))));
+  hn::Store(places, kWide, out.in[k].places + i);
+  hn::Store(hn::IfThenElseZero(hn::Gt(places, one), hn::Div(rest, whole)), kWide, out.in[k].scale + i);
+  hn::Store(level, kWideInt, out.in[k].level + i);
+}
+
+void find_places(const TextureRegions& r, const TextureFilter::Limits& limits, TexturePlaces& out) {
+  const V zero = hn::Zero(kWide), one = number(1), half = number(0.5f);
+  const V width = number(limits.width), height = number(limits.height);
+  for (size_t i = 0; i < TextureRegions::kBlock; i += kLanes) {
+    auto sides = [&](const float* u, const float* v, V size, V(&side)[2]) HWY_ATTR {
+      side[0] = hn::Mul(hn::Load(kWide, u + i), size);
+      side[1] = hn::Mul(hn::Load(kWide, v + i), size);
+    };
+    V s[2], t[2];
+    sides(r.s_u, r.s_v, width, s);
+    sides(r.t_u, r.t_v, height, t);
+    V ss = hn::Add(hn::Add(square(s[0]), square(s[1])), square(hn::Mul(hn::Load(kWide, r.sblur + i), width))),
+      tt =
+          hn::Add(hn::Add(square(t[0]), square(t[1])), square(hn::Mul(hn::Load(kWide, r.tblur + i), height))),
+      st = hn::Add(hn::Mul(s[0], t[0]), hn::Mul(s[1], t[1]));
+    // In parts of the largest: squares of large numbers would be too large. What is no number is a point.
+    V most = hn::Max(hn::Max(ss, tt), hn::Abs(st));
+    const auto is_region = hn::And(is_finite(hn::Add(ss, tt)), is_finite(st));
+    most = hn::Min(hn::IfThenElse(hn::And(is_region, hn::Gt(most, zero)), most, one), number(1e36f));
+    ss = hn::IfThenElseZero(is_region, hn::Div(ss, most));
+    tt = hn::IfThenElseZero(is_region, hn::Div(tt, most));
+    st = hn::IfThenElseZero(is_region, hn::Div(st, most));
+    const V differ = hn::Mul(half, hn::Sub(ss, tt)), off = hn::Sqrt(hn::Add(square(differ), square(st)));
+    const V longest = hn::Sqrt(hn::Mul(most, hn::Add(hn::Mul(half, hn::Add(ss, tt)), off)));
+    // By the determinant: the difference of large numbers would leave rounding errors.
+    const V area = hn::Mul(most, hn::Sqrt(hn::Max(hn::Sub(hn::Mul(ss, tt), square(st)), zero)));
+    const V shortest = hn::IfThenElseZero(hn::Gt(longest, zero), hn::Div(area, longest));
+    const auto along_s = hn::Ge(differ, zero);
+    const V x = hn::IfThenElse(along_s, hn::Add(differ, off), st),
+            y = hn::IfThenElse(along_s, st, hn::Sub(off, differ));
+    const V length = hn::Sqrt(hn::Add(square(x), square(y)));
+    const V scale = hn::IfThenElseZero(hn::Gt(length, zero), hn::Div(hn::Mul(half, longest), length));
+    hn::Store(hn::Div(hn::Mul(x, scale), width), kWide, out.s + i);
+    hn::Store(hn::Div(hn::Mul(y, scale), height), kWide, out.t + i);
+    hn::Store(longest, kWide, out.longest + i);
+
+    const V texel = hn::Max(
+        hn::Max(hn::Div(shortest, number(kSpread)), hn::Div(longest, number(limits.most_places))), one);
+    const V level = hn::Min(hn::Max(hn::Log2(kWide, texel), zero), number(limits.last_level));
+    V lower = hn::Floor(limits.between_levels ? level : hn::Add(level, half));
+    const V part = limits.between_levels ? hn::Sub(level, lower) : zero;
+    const I first = hn::ConvertTo(kWideInt, lower);
+    hn::Store(hn::Sub(one, part), kWide, out.in[0].weight + i);
+    hn::Store(part, kWide, out.in[1].weight + i);
+    spread_places(longest, first, limits.most_places, i, out, 0);
+    spread_places(longest, hn::Add(first, hn::Set(kWideInt, 1)), limits.most_places, i, out, 1);
   }
-  return -1;
 }
 
 /// The texels along one axis that an interpolation looks at.
 struct Taps {
-  int count = 0;
-  int at[4];
-  float weight[4];
+  size_t count = 0;
+  I at[4];
+  V weight[4];
+
+  HWY_INLINE void add(I i, V part, int size, TextureWrap wrap) {
+    const I zero = hn::Zero(kWideInt), all = hn::Set(kWideInt, size), last = hn::Set(kWideInt, size - 1);
+    if (wrap == TextureWrap::kBlack)
+      part = hn::IfThenZeroElse(hn::RebindMask(kWide, hn::Or(hn::Lt(i, zero), hn::Gt(i, last))), part);
+    if (wrap == TextureWrap::kPeriodic) { // at most two beyond a side; for sides of one texel see below
+      i = hn::Add(i, hn::IfThenElseZero(hn::Lt(i, zero), all));
+      i = hn::Sub(i, hn::IfThenElseZero(hn::Gt(i, last), all));
+    }
+    at[count] = hn::Min(hn::Max(i, zero), last);
+    weight[count++] = part;
+  }
 };
 
 /// `x`: in texels, whose middles are at halves.
-template <class Way> Taps taps(Way way, float x, int size, TextureWrap wrap) {
+HWY_INLINE Taps taps(Interpolation way, V x, int size, TextureWrap wrap) {
   Taps out;
+  const V whole = number(static_cast<float>(size)), one = number(1);
   // Far beyond the image all places are alike but for those that repeat.
-  if (wrap == TextureWrap::kPeriodic)
-    x -= std::floor(x / static_cast<float>(size)) * static_cast<float>(size);
-  x = std::clamp(x, -8.0f, static_cast<float>(size) + 8.0f);
-  auto add = [&](int i, float w) {
-    const int at = wrapped(i, size, wrap);
-    if (at < 0 || w == 0) return;
-    out.at[out.count] = at;
-    out.weight[out.count++] = w;
-  };
-  if (way == Way::kNearest) {
-    add(static_cast<int>(std::floor(x)), 1);
+  if (wrap == TextureWrap::kPeriodic) x = hn::Sub(x, hn::Mul(hn::Floor(hn::Div(x, whole)), whole));
+  x = hn::Min(hn::Max(x, number(-8)), hn::Add(whole, number(8)));
+  if (way == Interpolation::kNearest) {
+    out.add(hn::ConvertTo(kWideInt, hn::Floor(x)), one, size, wrap);
     return out;
   }
-  const float from = std::floor(x - 0.5f), f = x - 0.5f - from;
-  const int i = static_cast<int>(from);
+  x = hn::Sub(x, number(0.5f));
+  const V from = hn::Floor(x), f = hn::Sub(x, from), g = hn::Sub(one, f);
+  const I i = hn::ConvertTo(kWideInt, from);
+  auto add = [&](int step, V weight)
+                 HWY_ATTR { out.add(hn::Add(i, hn::Set(kWideInt, step)), weight, size, wrap); };
+  auto cubic = [](V at, float c3, float c2, float c1, float c0) HWY_ATTR {
+    const V high = hn::Add(hn::Mul(number(c3), at), number(c2));
+    return hn::Add(hn::Mul(hn::Add(hn::Mul(high, at), number(c1)), at), number(c0));
+  };
   switch (way) {
-  case Way::kBSpline: {
-    const float g = 1 - f;
-    add(i - 1, g * g * g / 6);
-    add(i, (4 - 6 * f * f + 3 * f * f * f) / 6);
-    add(i + 1, (4 - 6 * g * g + 3 * g * g * g) / 6);
-    add(i + 2, f * f * f / 6);
+  case Interpolation::kBSpline:
+    add(-1, cubic(g, 1.0f / 6, 0, 0, 0));
+    add(0, cubic(f, 0.5f, -1, 0, 2.0f / 3));
+    add(1, cubic(g, 0.5f, -1, 0, 2.0f / 3));
+    add(2, cubic(f, 1.0f / 6, 0, 0, 0));
     break;
-  }
-  case Way::kCatmullRom:
-    add(i - 1, ((2 - f) * f - 1) * f / 2);
-    add(i, ((3 * f - 5) * f * f + 2) / 2);
-    add(i + 1, ((4 - 3 * f) * f + 1) * f / 2);
-    add(i + 2, (f - 1) * f * f / 2);
+  case Interpolation::kCatmullRom:
+    add(-1, cubic(f, -0.5f, 1, -0.5f, 0));
+    add(0, cubic(f, 1.5f, -2.5f, 0, 1));
+    add(1, cubic(f, -1.5f, 2, 0.5f, 0));
+    add(2, cubic(f, 0.5f, -0.5f, 0, 0));
     break;
-  default: add(i, 1 - f); add(i + 1, f);
+  default: add(0, g); add(1, f);
   }
   return out;
 }
 
-} // namespace
+template <class T> HWY_INLINE V load_channel(const std::byte* const* texels, size_t channel) {
+  alignas(64) float numbers[kLanes];
+  for (size_t k = 0; k < kLanes; ++k) {
+    T value;
+    std::memcpy(&value, texels[k] + channel * sizeof(T), sizeof(T));
+    numbers[k] = static_cast<float>(value);
+  }
+  return hn::Load(kWide, numbers);
+}
+
+/// The channels of one texel in each lane, times a weight.
+HWY_INLINE void add_texels(const TextureFilter::Layout& layout, const std::byte* const* texels, V weight,
+                           V (&sums)[3]) {
+  if (layout.type == PixelType::kByte) { // all channels at once
+    alignas(64) uint32_t bits[kLanes];
+    for (size_t k = 0; k < kLanes; ++k)
+      std::memcpy(&bits[k], texels[k], sizeof bits[k]);
+    const auto all = hn::Load(kWideBits, bits), byte = hn::Set(kWideBits, 255u);
+    auto add = [&](size_t c, auto shifted) HWY_ATTR {
+      const V value = hn::ConvertTo(kWide, hn::BitCast(kWideInt, hn::And(shifted, byte)));
+      sums[c] = hn::Add(sums[c], hn::Mul(weight, value));
+    };
+    add(0, all);
+    if (layout.channels > 1) add(1, hn::ShiftRight<8>(all));
+    if (layout.channels > 2) add(2, hn::ShiftRight<16>(all));
+    return;
+  }
+  for (size_t c = 0; c < layout.channels; ++c) {
+    V value =
+        layout.type == PixelType::kShort ? load_channel<uint16_t>(texels, c) : load_channel<float>(texels, c);
+    value = hn::IfThenElseZero(hn::Ne(weight, hn::Zero(kWide)), value); // it may be infinite
+    sums[c] = hn::Add(sums[c], hn::Mul(weight, value));
+  }
+}
+
+/// `sums`: three floats each.
+void look_at(const TextureFilter::Layout& layout, const TextureImage::Level& level, Interpolation way,
+             const TextureProbes& probes, float* sums) {
+  const V width = number(static_cast<float>(level.width)), height = number(static_cast<float>(level.height));
+  const size_t row_bytes = static_cast<size_t>(level.width) * layout.texel;
+  for (size_t i = 0; i < probes.count; i += kLanes) {
+    const Taps columns =
+                   taps(way, hn::Mul(hn::LoadU(kWide, &probes.s[i]), width), level.width, layout.wrap[0]),
+               rows =
+                   taps(way, hn::Mul(hn::LoadU(kWide, &probes.t[i]), height), level.height, layout.wrap[1]);
+    const V weight = hn::LoadU(kWide, &probes.weight[i]);
+    V found[3] = {hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide)};
+    alignas(64) int32_t row[kLanes], in_row[4][kLanes];
+    for (size_t x = 0; x < columns.count; ++x)
+      hn::Store(hn::Mul(columns.at[x], hn::Set(kWideInt, static_cast<int32_t>(layout.texel))), kWideInt,
+                in_row[x]);
+    for (size_t y = 0; y < rows.count; ++y) {
+      const V of_row = hn::Mul(weight, rows.weight[y]);
+      const std::byte *starts[kLanes], *texels[kLanes];
+      hn::Store(rows.at[y], kWideInt, row);
+      for (size_t k = 0; k < kLanes; ++k)
+        starts[k] = level.texels + layout.first + static_cast<size_t>(row[k]) * row_bytes;
+      for (size_t x = 0; x < columns.count; ++x) {
+        for (size_t k = 0; k < kLanes; ++k)
+          texels[k] = starts[k] + in_row[x][k];
+        add_texels(layout, texels, hn::Mul(of_row, columns.weight[x]), found);
+      }
+    }
+    for (size_t c = 0; c < layout.channels; ++c) {
+      alignas(64) float channel[kLanes];
+      hn::Store(found[c], kWide, channel);
+      for (size_t k = 0; k < kLanes; ++k)
+        sums[3 * probes.sum[i + k] + c] += channel[k];
+    }
+  }
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace render
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace render {
+
+const auto kFindPlaces = SL_BEST(find_places);
+const auto kLookAt = SL_BEST(look_at);
 
 TextureFilter::TextureFilter(const TextureImage& image, const slvm::TextureLookup& lookup, TextureWrap swrap,
                              TextureWrap twrap)
-    : image_(image), wrap_{swrap, twrap}, first_(lookup.first_channel), channels_(lookup.channels) {
+    : image_(image), channels_(lookup.channels), probes_(image.levels() + 1) {
   const TextureHeader& header = image.header();
   const slvm::TextureOptions& o = lookup.options;
-  const auto there = static_cast<size_t>(header.channels);
-  present_ = first_ < there ? std::min(channels_, there - first_) : 0;
-  width_ = static_cast<float>(header.levels[0].width);
-  height_ = static_cast<float>(header.levels[0].height);
+  const auto there = static_cast<size_t>(header.channels), first = static_cast<size_t>(lookup.first_channel);
+  layout_ = {there * bytes_of(header.type),
+             first * bytes_of(header.type),
+             first < there ? std::min(channels_, there - first) : 0,
+             header.type,
+             {swrap, twrap}};
   fill_ = o.fill;
-  between_levels_ = o.between_levels;
+  one_ = header.type == PixelType::kByte ? 255.0f : header.type == PixelType::kShort ? 65535.0f : 1.0f;
   one_sample_ = o.samples == 1;
   constexpr float kMostPlaces = 16;
-  most_places_ = o.samples >= 1 ? std::min(std::floor(o.samples), 256.0f) : kMostPlaces;
+  limits_ = {static_cast<float>(header.levels[0].width), static_cast<float>(header.levels[0].height),
+             o.samples >= 1 ? std::min(std::floor(o.samples), 256.0f) : kMostPlaces,
+             static_cast<float>(image.levels() - 1), o.between_levels};
   gaussian_ = o.filter == "gaussian";
   triangle_ = o.filter == "triangle";
   interpolation_ = gaussian_                   ? Interpolation::kBSpline
@@ -94,95 +271,76 @@ TextureFilter::TextureFilter(const TextureImage& image, const slvm::TextureLooku
                                                : Interpolation::kBilinear;
 }
 
-TextureFilter::Ellipse TextureFilter::ellipse_of(const TextureRegion& r) const {
-  const float ss = (r.s_u * r.s_u + r.s_v * r.s_v + r.sblur * r.sblur) * width_ * width_,
-              tt = (r.t_u * r.t_u + r.t_v * r.t_v + r.tblur * r.tblur) * height_ * height_,
-              st = (r.s_u * r.t_u + r.s_v * r.t_v) * width_ * height_;
-  if (!std::isfinite(ss) || !std::isfinite(tt) || !std::isfinite(st)) return {}; // a point
-  const float middle = 0.5f * (ss + tt), off = std::hypot(0.5f * (ss - tt), st);
-  Ellipse out;
-  out.longest = std::sqrt(middle + off);
-  // By the determinant: the difference of large numbers would leave rounding errors.
-  if (out.longest > 0) out.shortest = std::sqrt(std::max(0.0f, ss * tt - st * st)) / out.longest;
-  float x = ss - tt >= 0 ? 0.5f * (ss - tt) + off : st, y = ss - tt >= 0 ? st : off - 0.5f * (ss - tt);
-  const float length = std::hypot(x, y);
-  if (length == 0) x = 1, y = 0;
-  const float half = 0.5f * out.longest / (length == 0 ? 1 : length);
-  out.s = x * half / width_;
-  out.t = y * half / height_;
-  return out;
+float TextureFilter::shape(float x) const {
+  return gaussian_ ? std::exp(-2 * x * x) : triangle_ ? 1 - std::abs(x) : 1.0f;
 }
 
-bool TextureFilter::mean(const TextureRegion& region, float* out) const {
-  std::fill_n(out, channels_, 0.0f);
-  const Ellipse ellipse = ellipse_of(region);
-  bool read = true;
-  if (one_sample_ && ellipse.longest == 0) {
-    read = add_level(region, ellipse, 0, 1, Interpolation::kNearest, out);
-  } else {
-    const float texel = std::max({ellipse.shortest / kSpread, ellipse.longest / most_places_, 1.0f});
-    const float level = std::min(std::log2(texel), static_cast<float>(image_.levels() - 1));
-    auto lower = static_cast<size_t>(level);
-    float part = level - static_cast<float>(lower);
-    if (!between_levels_) {
-      lower += part >= 0.5f;
-      part = 0;
-    }
-    if (part < 1) read = add_level(region, ellipse, lower, 1 - part, interpolation_, out);
-    if (part > 0 && read) read = add_level(region, ellipse, lower + 1, part, interpolation_, out);
+/// The places along the long axis of one region, in both levels.
+void TextureFilter::add_probes(const TextureRegions& r, const TexturePlaces& places, uint32_t lane) {
+  if (one_sample_ && places.longest[lane] == 0) {
+    TextureProbes& probes = probes_.back();
+    const size_t at = probes.add(1);
+    probes.s[at] = r.s[lane];
+    probes.t[at] = r.t[lane];
+    probes.weight[at] = 1 / one_;
+    probes.sum[at] = lane;
+    return;
   }
-  std::fill(out + present_, out + channels_, fill_);
+  for (uint32_t k = 0; k < 2; ++k) {
+    const auto& in = places.in[k];
+    if (!(in.weight[lane] > 0)) continue;
+    TextureProbes& probes = probes_[static_cast<size_t>(in.level[lane])];
+    const float places_there = in.places[lane], s = in.scale[lane] * places.s[lane],
+                t = in.scale[lane] * places.t[lane];
+    const auto count = static_cast<size_t>(places_there), first = probes.add(count);
+    float *at_s = &probes.s[first], *at_t = &probes.t[first], *weight = &probes.weight[first];
+    const float step = 2 / places_there;
+    float sum = places_there;
+    for (size_t i = 0; i < count; ++i) {
+      const float x = (static_cast<float>(i) + 0.5f) * step - 1;
+      at_s[i] = r.s[lane] + x * s;
+      at_t[i] = r.t[lane] + x * t;
+    }
+    std::fill_n(&probes.sum[first], count, static_cast<uint32_t>(k * kBlock) + lane);
+    std::fill_n(weight, count, 1.0f);
+    if (gaussian_ || triangle_) {
+      sum = 0;
+      for (size_t i = 0; i < count; ++i)
+        sum += weight[i] = shape((static_cast<float>(i) + 0.5f) * step - 1);
+    }
+    const float part = in.weight[lane] / (sum * one_);
+    for (size_t i = 0; i < count; ++i)
+      weight[i] *= part;
+  }
+}
+
+bool TextureFilter::means(const TextureRegions& regions, uint32_t active, Means& out) {
+  for (uint32_t rest = active; rest != 0; rest &= rest - 1)
+    if (const int lane = std::countr_zero(rest);
+        !std::isfinite(regions.s[lane]) || !std::isfinite(regions.t[lane]))
+      active &= ~(1u << lane);
+  TexturePlaces places;
+  kFindPlaces(regions, limits_, places);
+  for (uint32_t rest = active; rest != 0; rest &= rest - 1)
+    add_probes(regions, places, static_cast<uint32_t>(std::countr_zero(rest)));
+  float sums[2 * kBlock + 1][3] = {}; // of each region in either of its levels, and of nobody
+  bool read = true;
+  for (size_t i = 0; i < probes_.size(); ++i) {
+    TextureProbes& probes = probes_[i];
+    if (probes.count == 0) continue;
+    const bool nearest = i == image_.levels();
+    const TextureImage::Level level = image_.level(nearest ? 0 : i);
+    read = read && level.texels;
+    if (read) kLookAt(layout_, level, nearest ? Interpolation::kNearest : interpolation_, probes, sums[0]);
+    probes.clear();
+  }
+  for (size_t c = 0; c < channels_; ++c)
+    for (size_t lane = 0; lane < kBlock; ++lane)
+      out[c][lane] = c < layout_.channels ? sums[lane][c] + sums[kBlock + lane][c]
+                     : active >> lane & 1 ? fill_
+                                          : 0.0f;
   return read;
 }
 
-/// The mean over the places along the long axis, in one level.
-bool TextureFilter::add_level(const TextureRegion& region, const Ellipse& ellipse, size_t index, float weight,
-                              Interpolation way, float* out) const {
-  const TextureImage::Level level = image_.level(index);
-  if (!level.texels) return false;
-  // So many places, so far apart, that the spread is that of the whole side.
-  const float texel = std::ldexp(1.0f, static_cast<int>(index)), longest = ellipse.longest;
-  const float rest = std::sqrt(std::max(0.0f, longest * longest - kSpread * kSpread * texel * texel));
-  const float places = std::clamp(std::ceil(rest / texel + 0.5f), 1.0f, most_places_);
-  const float scale = places > 1 ? rest / (longest * std::sqrt(1 - 1 / (places * places))) : 0;
-  auto add = [&](float s, float t, float w) {
-    switch (image_.header().type) {
-    case TexelType::kByte: add_texels<uint8_t>(level, way, s, t, w, out); break;
-    case TexelType::kShort: add_texels<uint16_t>(level, way, s, t, w, out); break;
-    case TexelType::kFloat: add_texels<float>(level, way, s, t, w, out); break;
-    }
-  };
-  auto place = [&](float i) { return (2 * i + 1) / places - 1; };
-  auto shape = [&](float x) { return gaussian_ ? std::exp(-2 * x * x) : triangle_ ? 1 - std::abs(x) : 1.0f; };
-  float sum = 0;
-  for (float i = 0; i < places; ++i)
-    sum += shape(place(i));
-  for (float i = 0; i < places; ++i) {
-    const float x = place(i);
-    add(region.s + x * scale * ellipse.s, region.t + x * scale * ellipse.t, weight * shape(x) / sum);
-  }
-  return true;
-}
-
-template <class T>
-void TextureFilter::add_texels(const TextureImage::Level& level, Interpolation way, float s, float t,
-                               float weight, float* out) const {
-  if constexpr (!std::is_same_v<T, float>) weight /= static_cast<float>(std::numeric_limits<T>::max());
-  const Taps columns = taps(way, s * static_cast<float>(level.width), level.width, wrap_[0]),
-             rows = taps(way, t * static_cast<float>(level.height), level.height, wrap_[1]);
-  const auto texel = static_cast<size_t>(image_.header().channels);
-  for (int j = 0; j < rows.count; ++j)
-    for (int i = 0; i < columns.count; ++i) {
-      const size_t at = static_cast<size_t>(rows.at[j]) * static_cast<size_t>(level.width) +
-                        static_cast<size_t>(columns.at[i]);
-      const std::byte* from = level.texels + (at * texel + first_) * sizeof(T);
-      const float w = weight * rows.weight[j] * columns.weight[i];
-      for (size_t c = 0; c < present_; ++c) {
-        T value;
-        std::memcpy(&value, from + c * sizeof(T), sizeof(T));
-        out[c] += w * static_cast<float>(value);
-      }
-    }
-}
-
 } // namespace render
+#endif

@@ -1,6 +1,10 @@
 // A texture: an image and smaller ones of it, its levels, in memory as soon as somebody looks at them.
 #pragma once
 
+#include "render/texture/pixels.h"
+#include "render/texture/shrink.h"
+#include "render/texture/wrap.h"
+
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -12,23 +16,11 @@
 
 namespace render {
 
-enum class TexelType : uint8_t { kByte, kShort, kFloat };
-constexpr size_t texel_bytes(TexelType type) {
-  return type == TexelType::kByte ? 1 : type == TexelType::kShort ? 2 : 4;
-}
-
-/// What is beyond the sides of a texture: nothing, the image again and again, or its outermost texels.
-enum class TextureWrap : uint8_t { kBlack, kPeriodic, kClamp };
-
 /// What a file says before its texels are read.
 struct TextureHeader {
-  struct Size {
-    int width = 0, height = 0;
-    bool operator==(const Size&) const = default;
-  };
-  std::vector<Size> levels; ///< those in the file: the largest first, each half of the one before
+  std::vector<ImageSize> levels; ///< those in the file: the largest first, each half of the one before
   int channels = 0;
-  TexelType type = TexelType::kByte; ///< integers mean 0 to 1
+  PixelType type = PixelType::kByte; ///< integers mean 0 to 1
   bool straight_alpha = false;       ///< colours are yet to be multiplied by the last channel
   TextureWrap swrap = TextureWrap::kBlack, twrap = TextureWrap::kBlack;
   std::string format;                                  ///< "Shadow", "LatLong Environment"...; often empty
@@ -37,7 +29,7 @@ struct TextureHeader {
 /// "periodic,clamp" as files say it; what is not known is black.
 void set_wraps(const std::string& modes, TextureHeader& header);
 /// Whether the next level after one of size `a` has size `b`.
-bool halves(TextureHeader::Size a, TextureHeader::Size b);
+bool halves(ImageSize a, ImageSize b);
 
 /// A file of textures. Used by one thread at a time.
 class TextureReader {
@@ -57,6 +49,8 @@ public:
   TextureImage(std::unique_ptr<TextureReader> reader, std::atomic<long long>& memory);
   ~TextureImage();
 
+  /// Behind the last texel there are so many more bytes that may be read: a word from each byte.
+  static constexpr size_t kReadBeyond = 3;
   struct Level {
     int width = 0, height = 0;
     const std::byte* texels = nullptr; ///< as TextureReader::read gives them
@@ -64,12 +58,14 @@ public:
   const TextureHeader& header() const { return header_; }
   /// Down to a single texel; what the file does not have is made of the level before. Null texels: problem().
   Level level(size_t i) const;
+  /// All of a level, integers as 0 to 1. False: problem().
+  bool numbers(size_t i, FloatImage& out) const;
   size_t levels() const { return levels_.size(); }
   std::string problem() const;
 
 private:
   struct Stored {
-    TextureHeader::Size size;
+    ImageSize size;
     std::vector<std::byte> texels;
     std::atomic<const std::byte*> ready{nullptr};
   };

@@ -1,16 +1,11 @@
 #include "render/texture/texture_lookups.h"
 
-#include "render/texture/image_module.h"
-#include "render/texture/texture_filter.h"
-#include "render/texture/texture_tiff.h"
+#include "render/texture/copy_values.h"
+#include "render/texture/latlong.h"
+#include "render/texture/open_texture.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
-#include <limits>
-#include <numbers>
 
 namespace render {
 
@@ -20,64 +15,29 @@ using slvm::Value;
 
 namespace {
 
-constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+constexpr size_t kBlock = TextureRegions::kBlock;
 
-/// PRMan's format before it took TIFF, in either order of bytes. It is not public.
-bool is_early_prman(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  const int first = in.get(), second = in.get();
-  return (first == 0xfa && second == 0xce) || (first == 0xce && second == 0xfa);
-}
-
-std::unique_ptr<TextureReader> open_texture(const std::string& file, std::string& problem) {
-  if (auto reader = open_tiff_texture(file)) return reader;
-  if (is_early_prman(file)) {
-    problem = "it is in PRMan's own format of before TIFF; make it anew of its image, by MakeTexture";
-    return nullptr;
-  }
-  const ImageModule& module = image_module();
-  if (!module.problem.empty()) {
-    problem = module.problem;
-    return nullptr;
-  }
-  return module.open_texture(file, problem);
-}
-
-/// Looks up every active point; `at(point)` gives its region, without blur.
+/// Looks up every active point; `find(first, count, regions)` gives the regions of some, without blur.
 template <class F>
 std::string look_up(const TextureImage& image, const TextureLookup& l, TextureWrap swrap, TextureWrap twrap,
-                    F&& at) {
-  const TextureFilter filter(image, l, swrap, twrap);
-  for (size_t i = 0; i < l.points; ++i) {
-    if (!l.active(i)) continue;
-    TextureRegion region = at(i);
-    region.sblur = TextureLookup::at(l.sblur, i);
-    region.tblur = TextureLookup::at(l.tblur, i);
-    float result[TextureLookup::kMost] = {};
-    const bool has_place = std::isfinite(region.s) && std::isfinite(region.t);
-    if (has_place && !filter.mean(region, result)) return image.problem();
+                    F&& find) {
+  TextureFilter filter(image, l, swrap, twrap);
+  TextureRegions regions;
+  TextureFilter::Means means;
+  for (size_t first = 0; first < l.points; first += kBlock) {
+    const size_t count = std::min(kBlock, l.points - first);
+    const uint32_t active =
+        static_cast<uint32_t>(l.mask[first / 64] >> first % 64) & static_cast<uint32_t>((1ull << count) - 1);
+    if (active == 0) continue;
+    find(first, count, regions);
+    copy_values(l.sblur, first, count, regions.sblur);
+    copy_values(l.tblur, first, count, regions.tblur);
+    if (!filter.means(regions, active, means)) return image.problem();
     for (size_t c = 0; c < l.channels; ++c)
-      l.result[c][i] = result[c];
+      for (size_t k = 0; k < count; ++k)
+        if (active >> k & 1) l.result[c][first + k] = means[c][k];
   }
   return {};
-}
-
-/// Latitude-longitude coordinates of a direction and of how it changes.
-TextureRegion latlong(const TextureLookup& l, size_t i) {
-  float x = l.centre[0][i], y = l.centre[1][i], z = l.centre[2][i];
-  float across = x * x + y * y, flat = std::sqrt(across), square = across + z * z;
-  float longitude = std::atan2(y, x), latitude = std::atan2(z, flat);
-  if (longitude < 0) longitude += kTurn;
-  auto change = [&](const std::vector<float>(&d)[3], float& s, float& t) {
-    float dx = d[0][i], dy = d[1][i], dz = d[2][i];
-    s = across > 0 ? (x * dy - y * dx) / (across * kTurn) : 0;
-    t = flat > 0 && square > 0 ? -(flat * dz - z * (x * dx + y * dy) / flat) / square * 2 / kTurn : 0;
-    s = std::clamp(s, -1.0f, 1.0f); // next to a pole
-  };
-  TextureRegion r{longitude / kTurn, 0.5f - latitude * 2 / kTurn, 0, 0, 0, 0};
-  change(l.along_u, r.s_u, r.t_u);
-  change(l.along_v, r.s_v, r.t_v);
-  return r;
 }
 
 /// From current space. Empty: the file has no such matrix.
@@ -120,18 +80,31 @@ std::string TextureLookups::texture(const std::string& file, const TextureLookup
   std::string problem;
   const auto image = find(file, problem);
   if (!image) return problem;
-  return look_up(*image, l, image->header().swrap, image->header().twrap, [&](size_t i) {
-    return TextureRegion{l.centre[0][i],  l.centre[1][i],  l.along_u[0][i],
-                         l.along_u[1][i], l.along_v[0][i], l.along_v[1][i]};
-  });
+  return look_up(*image, l, image->header().swrap, image->header().twrap,
+                 [&](size_t first, size_t count, TextureRegions& out) {
+                   copy_values(l.centre[0], first, count, out.s);
+                   copy_values(l.centre[1], first, count, out.t);
+                   copy_values(l.along_u[0], first, count, out.s_u);
+                   copy_values(l.along_u[1], first, count, out.t_u);
+                   copy_values(l.along_v[0], first, count, out.s_v);
+                   copy_values(l.along_v[1], first, count, out.t_v);
+                 });
 }
 
 std::string TextureLookups::environment(const std::string& file, const TextureLookup& l) {
   std::string problem;
   const auto image = find(file, problem);
   if (!image) return problem;
+  Directions directions;
   return look_up(*image, l, TextureWrap::kPeriodic, TextureWrap::kClamp,
-                 [&](size_t i) { return latlong(l, i); });
+                 [&](size_t first, size_t count, TextureRegions& out) {
+                   for (size_t c = 0; c < 3; ++c) {
+                     copy_values(l.centre[c], first, count, directions.centre[c]);
+                     copy_values(l.along_u[c], first, count, directions.along_u[c]);
+                     copy_values(l.along_v[c], first, count, directions.along_v[c]);
+                   }
+                   find_latlong(directions, out);
+                 });
 }
 
 bool TextureLookups::info(const std::string& file, std::string_view field,
@@ -162,37 +135,18 @@ bool TextureLookups::info(const std::string& file, std::string_view field,
   return true;
 }
 
-namespace {
-
-template <class T> void as_numbers(const std::byte* from, std::vector<float>& to) {
-  constexpr float kMost = std::is_same_v<T, float> ? 1.0f : static_cast<float>(std::numeric_limits<T>::max());
-  for (float& value : to) {
-    T stored;
-    std::memcpy(&stored, from, sizeof stored);
-    from += sizeof stored;
-    value = static_cast<float>(stored) / kMost;
-  }
-}
-
-} // namespace
-
 std::string TextureLookups::texels(const std::string& file, size_t level, slvm::TextureTexels& out) {
   std::string problem;
   const auto image = find(file, problem);
   if (!image) return problem;
   if (level >= image->levels())
     return fmt::format("it has the levels 0 to {}, and no level {}", image->levels() - 1, level);
-  const TextureImage::Level found = image->level(level);
-  if (!found.texels) return image->problem();
-  out.width = static_cast<size_t>(found.width);
-  out.height = static_cast<size_t>(found.height);
-  out.channels = static_cast<size_t>(image->header().channels);
-  out.values.resize(out.width * out.height * out.channels);
-  switch (image->header().type) {
-  case TexelType::kByte: as_numbers<uint8_t>(found.texels, out.values); break;
-  case TexelType::kShort: as_numbers<uint16_t>(found.texels, out.values); break;
-  case TexelType::kFloat: as_numbers<float>(found.texels, out.values); break;
-  }
+  FloatImage numbers;
+  if (!image->numbers(level, numbers)) return image->problem();
+  out.width = static_cast<size_t>(numbers.width);
+  out.height = static_cast<size_t>(numbers.height);
+  out.channels = numbers.channels;
+  out.values = std::move(numbers.numbers);
   return {};
 }
 

@@ -1,5 +1,6 @@
 #include "render/texture/texture_maps.h"
 
+#include "render/texture/copy_values.h"
 #include "render/texture/depth_image.h"
 #include "render/texture/find_image.h"
 #include "render/texture/shadow_map.h"
@@ -109,27 +110,35 @@ std::string TextureMaps::shadow(const TextureLookup& l) {
   std::string problem;
   std::shared_ptr<const ShadowMap> map = shadow_map(std::string(l.map), problem);
   if (!map) return problem;
+  constexpr size_t kBlock = ShadowRegions::kBlock;
   constexpr float kDefaultSamples = 16;
-  for (size_t i = 0; i < l.points; ++i) {
-    if (!l.active(i)) continue;
-    ShadowMap::Region r{};
-    auto world = slvm::transform_point(l.current_to_world, {l.centre[0][i], l.centre[1][i], l.centre[2][i]});
-    auto u = slvm::transform_vector(l.current_to_world, {l.along_u[0][i], l.along_u[1][i], l.along_u[2][i]});
-    auto v = slvm::transform_vector(l.current_to_world, {l.along_v[0][i], l.along_v[1][i], l.along_v[2][i]});
-    std::copy(world.begin(), world.end(), r.centre);
-    std::copy(u.begin(), u.end(), r.along_u);
-    std::copy(v.begin(), v.end(), r.along_v);
-    r.sblur = TextureLookup::at(l.sblur, i);
-    r.tblur = TextureLookup::at(l.tblur, i);
-    r.samples = static_cast<int>(
-        std::clamp(l.options.samples > 0 ? l.options.samples : kDefaultSamples, 1.0f, 4096.0f));
-    r.seed = static_cast<uint32_t>(i) * 0x9e3779b9u >> 8;
-    float chance = static_cast<float>(r.seed * 0x85ebca6bu >> 8) * 0x1p-24f;
-    r.bias = l.bias.empty() ? settings_.shadow_bias + settings_.shadow_bias_spread * chance
-                            : TextureLookup::at(l.bias, i);
-    float shadowed = map->shadowed(r);
+  ShadowRegions regions;
+  regions.to_camera = l.current_to_world * map->world_to_camera;
+  regions.to_screen = l.current_to_world * map->world_to_screen;
+  regions.samples = static_cast<int>(
+      std::clamp(l.options.samples > 0 ? l.options.samples : kDefaultSamples, 1.0f, 4096.0f));
+  for (size_t first = 0; first < l.points; first += kBlock) {
+    if ((l.mask[first / 64] >> first % 64 & 0xffff) == 0) continue;
+    const size_t count = std::min(kBlock, l.points - first);
+    for (size_t c = 0; c < 3; ++c) {
+      copy_values(l.centre[c], first, count, regions.centre[c]);
+      copy_values(l.along_u[c], first, count, regions.along_u[c]);
+      copy_values(l.along_v[c], first, count, regions.along_v[c]);
+    }
+    copy_values(l.sblur, first, count, regions.sblur);
+    copy_values(l.tblur, first, count, regions.tblur);
+    copy_values(l.bias, first, count, regions.bias);
+    for (size_t k = 0; k < count; ++k) {
+      const uint32_t seed = static_cast<uint32_t>(first + k) * 0x9e3779b9u >> 8;
+      regions.turn[k] = seed << 16;
+      const float chance = static_cast<float>(seed * 0x85ebca6bu >> 8) * 0x1p-24f;
+      if (l.bias.empty()) regions.bias[k] = settings_.shadow_bias + settings_.shadow_bias_spread * chance;
+    }
+    float shadowed[kBlock];
+    map->shadowed(regions, shadowed);
     for (size_t c = 0; c < l.channels; ++c)
-      l.result[c][i] = shadowed;
+      for (size_t k = 0; k < count; ++k)
+        if (l.active(first + k)) l.result[c][first + k] = shadowed[k];
   }
   return {};
 }

@@ -59,9 +59,9 @@ bool TiffTexture::read_header(uint64_t file_size) {
   const Layout first(t);
   if (!is_read(first) || first.bytes() / kMostCompressed > file_size) return false;
   header_.channels = first.channels;
-  header_.type = first.is_float()  ? TexelType::kFloat
-                 : first.bits == 8 ? TexelType::kByte
-                                   : TexelType::kShort;
+  header_.type = first.is_float()  ? PixelType::kFloat
+                 : first.bits == 8 ? PixelType::kByte
+                                   : PixelType::kShort;
   header_.format = text_field(t, TIFFTAG_PIXAR_TEXTUREFORMAT);
   set_wraps(text_field(t, TIFFTAG_PIXAR_WRAPMODES), header_);
   header_.world_to_camera = matrix_field(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA);
@@ -70,7 +70,7 @@ bool TiffTexture::read_header(uint64_t file_size) {
   const uint16_t* extra = nullptr;
   if (TIFFGetField(t, TIFFTAG_EXTRASAMPLES, &count, &extra) && count == 1)
     header_.straight_alpha = extra[0] == EXTRASAMPLE_UNASSALPHA && first.channels > 1;
-  TextureHeader::Size size{static_cast<int>(first.width), static_cast<int>(first.height)};
+  ImageSize size{static_cast<int>(first.width), static_cast<int>(first.height)};
   header_.levels.push_back(size);
   // Further pictures are levels as long as they are what levels would be.
   while (TIFFReadDirectory(t)) {

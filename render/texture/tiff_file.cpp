@@ -1,10 +1,12 @@
 #include "render/texture/tiff_file.h"
 
 #include "render/texture/image_file.h"
+#include "render/texture/shrink.h"
 #include "slvm/support/tiff_open.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <map>
 #include <memory>
 
@@ -23,10 +25,6 @@ const std::map<std::string, uint16_t>& compressions() {
                                                          {"lzw", COMPRESSION_LZW},
                                                          {"packbits", COMPRESSION_PACKBITS}};
   return kNames;
-}
-
-uint16_t bits(PixelType type) {
-  return type == PixelType::kByte ? 8 : type == PixelType::kShort ? 16 : 32;
 }
 
 void set_compression(TIFF* t, const ImageFile& image) {
@@ -53,17 +51,27 @@ void set_channels(TIFF* t, const ImageFile& image) {
     TIFFSetField(t, TIFFTAG_EXTRASAMPLES, static_cast<uint16_t>(others.size()), others.data());
 }
 
+void set_matrix(TIFF* t, uint32_t tag, const std::array<float, 16>& matrix) {
+  if (matrix != std::array<float, 16>{}) TIFFSetField(t, tag, matrix.data());
+}
+
 constexpr int kRows = 64; // of a strip
 
-void set_fields(TIFF* t, const ImageFile& image) {
-  TIFFSetField(t, TIFFTAG_IMAGEWIDTH, static_cast<uint32_t>(image.width));
-  TIFFSetField(t, TIFFTAG_IMAGELENGTH, static_cast<uint32_t>(image.height));
-  TIFFSetField(t, TIFFTAG_BITSPERSAMPLE, bits(image.type));
+/// Of the whole image or of one of its levels.
+void set_fields(TIFF* t, const ImageFile& image, ImageSize size) {
+  TIFFSetField(t, TIFFTAG_IMAGEWIDTH, static_cast<uint32_t>(size.width));
+  TIFFSetField(t, TIFFTAG_IMAGELENGTH, static_cast<uint32_t>(size.height));
+  TIFFSetField(t, TIFFTAG_BITSPERSAMPLE, static_cast<uint16_t>(8 * bytes_of(image.type)));
   TIFFSetField(t, TIFFTAG_SAMPLEFORMAT,
                image.type == PixelType::kFloat ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
   TIFFSetField(t, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(t, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, kRows);
+  if (image.levels.empty()) {
+    TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, kRows);
+  } else {
+    TIFFSetField(t, TIFFTAG_TILEWIDTH, ImageFile::kTile);
+    TIFFSetField(t, TIFFTAG_TILELENGTH, ImageFile::kTile);
+  }
   set_channels(t, image);
   set_compression(t, image);
   TIFFSetField(t, TIFFTAG_SOFTWARE, "Anemone slrender");
@@ -77,14 +85,17 @@ void set_fields(TIFF* t, const ImageFile& image) {
   }
   TIFFSetField(t, TIFFTAG_PIXAR_IMAGEFULLWIDTH, static_cast<uint32_t>(image.full_width));
   TIFFSetField(t, TIFFTAG_PIXAR_IMAGEFULLLENGTH, static_cast<uint32_t>(image.full_height));
-  if (!image.texture_format.empty())
+  if (!image.texture_format.empty()) {
     TIFFSetField(t, TIFFTAG_PIXAR_TEXTUREFORMAT, image.texture_format.c_str());
-  TIFFSetField(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA, image.world_to_camera.data());
-  TIFFSetField(t, TIFFTAG_PIXAR_MATRIX_WORLDTOSCREEN, image.world_to_screen.data());
+    TIFFSetField(t, TIFFTAG_PIXAR_FOVCOT, static_cast<float>(image.width) / static_cast<float>(image.height));
+  }
+  if (!image.wraps.empty()) TIFFSetField(t, TIFFTAG_PIXAR_WRAPMODES, image.wraps.c_str());
+  set_matrix(t, TIFFTAG_PIXAR_MATRIX_WORLDTOCAMERA, image.world_to_camera);
+  set_matrix(t, TIFFTAG_PIXAR_MATRIX_WORLDTOSCREEN, image.world_to_screen);
 }
 
 bool write_strips(TIFF* t, const ImageFile& image) {
-  const size_t row = static_cast<size_t>(image.width) * image.channels.size() * bits(image.type) / 8;
+  const size_t row = static_cast<size_t>(image.width) * image.channels.size() * bytes_of(image.type);
   std::vector<std::byte> strip; // libtiff changes it
   for (int y = 0, i = 0; y < image.height; y += kRows, ++i) {
     const size_t from = static_cast<size_t>(y) * row;
@@ -94,6 +105,36 @@ bool write_strips(TIFF* t, const ImageFile& image) {
       return false;
   }
   return TIFFFlush(t) != 0;
+}
+
+/// The next picture of a file, in tiles, those at the sides filled up with zeros.
+bool write_level(TIFF* t, const ImageFile& image, ImageSize size, const std::vector<std::byte>& pixels) {
+  constexpr size_t kSide = ImageFile::kTile;
+  set_fields(t, image, size);
+  const size_t pixel = image.channels.size() * bytes_of(image.type), width = static_cast<size_t>(size.width),
+               height = static_cast<size_t>(size.height);
+  std::vector<std::byte> tile(kSide * kSide * pixel);
+  for (size_t y0 = 0; y0 < height; y0 += kSide)
+    for (size_t x0 = 0; x0 < width; x0 += kSide) {
+      std::fill(tile.begin(), tile.end(), std::byte{}); // libtiff changed it
+      for (size_t y = y0; y < std::min(height, y0 + kSide); ++y)
+        std::memcpy(&tile[(y - y0) * kSide * pixel], &pixels[(y * width + x0) * pixel],
+                    std::min(kSide, width - x0) * pixel);
+      if (TIFFWriteTile(t, tile.data(), static_cast<uint32_t>(x0), static_cast<uint32_t>(y0), 0, 0) < 0)
+        return false;
+    }
+  return TIFFWriteDirectory(t) != 0;
+}
+
+bool write_levels(TIFF* t, const ImageFile& image) {
+  ImageSize size{image.width, image.height};
+  if (!write_level(t, image, size, image.pixels)) return false;
+  for (const std::vector<std::byte>& level : image.levels) {
+    size = half_of(size);
+    TIFFSetField(t, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE);
+    if (!write_level(t, image, size, level)) return false;
+  }
+  return true;
 }
 
 } // namespace
@@ -106,9 +147,11 @@ std::string write_tiff(const ImageFile& image) {
   Messages messages;
   File file = open_tiff(image.path, "w", messages);
   bool written = false;
-  if (file) {
-    set_fields(file.get(), image);
+  if (file && image.levels.empty()) {
+    set_fields(file.get(), image, {image.width, image.height});
     written = write_strips(file.get(), image);
+  } else if (file) {
+    written = write_levels(file.get(), image);
   }
   file.reset();
   if (written && messages.empty()) return {};

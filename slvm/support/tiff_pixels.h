@@ -46,7 +46,8 @@ public:
     const size_t bytes = apart ? layout_.sample_bytes() : layout_.pixel_bytes();
     for (uint16_t plane = 0; plane < (apart ? layout_.channels : 1); ++plane) {
       std::byte* first = pixels.data() + plane * layout_.sample_bytes();
-      if (!(TIFFIsTiled(file_) ? read_tiles(first, plane, bytes) : read_rows(first, plane, bytes))) return false;
+      if (!(TIFFIsTiled(file_) ? read_tiles(first, plane, bytes) : read_strips(first, plane, bytes)))
+        return false;
     }
     return true;
   }
@@ -63,14 +64,20 @@ private:
       std::memcpy(to, from, bytes);
   }
 
-  /// `to`: where the first piece goes.
-  bool read_rows(std::byte* to, uint16_t plane, size_t bytes) {
-    const size_t width = layout_.width;
-    std::vector<std::byte> row(static_cast<size_t>(TIFFScanlineSize(file_)));
-    if (row.size() < width * bytes) return false;
-    for (uint32_t y = 0; y < layout_.height; ++y, to += width * layout_.pixel_bytes()) {
-      if (TIFFReadScanline(file_, row.data(), y, plane) < 0) return false;
-      spread(row.data(), width, bytes, to);
+  /// `to`: where the first piece goes. Whole strips: libtiff takes longer to decode them row by row.
+  bool read_strips(std::byte* to, uint16_t plane, size_t bytes) {
+    const size_t width = layout_.width, row = width * bytes;
+    uint32_t rows = 0;
+    TIFFGetFieldDefaulted(file_, TIFFTAG_ROWSPERSTRIP, &rows);
+    std::vector<std::byte> strip(static_cast<size_t>(TIFFStripSize(file_)));
+    if (rows == 0 || strip.size() < std::min(rows, layout_.height) * row) return false;
+    for (uint32_t y = 0; y < layout_.height; y += std::min(rows, layout_.height - y)) {
+      const size_t here = std::min(rows, layout_.height - y), size = here * row;
+      const tmsize_t found = TIFFReadEncodedStrip(file_, TIFFComputeStrip(file_, y, plane), strip.data(),
+                                                  static_cast<tmsize_t>(size));
+      if (found < static_cast<tmsize_t>(size)) return false;
+      spread(strip.data(), here * width, bytes, to);
+      to += here * width * layout_.pixel_bytes();
     }
     return true;
   }
@@ -83,7 +90,8 @@ private:
     if (width == 0 || height == 0 || tile.size() < size_t{width} * height * bytes) return false;
     for (size_t y0 = 0; y0 < layout_.height; y0 += height)
       for (size_t x0 = 0; x0 < layout_.width; x0 += width) {
-        if (TIFFReadTile(file_, tile.data(), static_cast<uint32_t>(x0), static_cast<uint32_t>(y0), 0, plane) < 0)
+        if (TIFFReadTile(file_, tile.data(), static_cast<uint32_t>(x0), static_cast<uint32_t>(y0), 0, plane) <
+            0)
           return false;
         const size_t columns = std::min<size_t>(width, layout_.width - x0);
         for (size_t row = 0; row < std::min<size_t>(height, layout_.height - y0); ++row)

@@ -1,5 +1,6 @@
-// TIFF files from anywhere, as textures: their header, all their levels, and lookups in them.
+// TIFF and PNG files from anywhere, as textures: their header, all their levels, and lookups in them.
 #include "render/texture/texture_filter.h"
+#include "render/texture/texture_png.h"
 #include "render/texture/texture_tiff.h"
 
 #include <cmath>
@@ -16,8 +17,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       (fs::temp_directory_path() / ("fuzz_texture_" + std::to_string(::getpid()))).string();
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  struct Remove {
+    ~Remove() { fs::remove(path); }
+  } remove;
   auto reader = render::open_tiff_texture(path);
-  fs::remove(path);
+  if (!reader) reader = render::open_png_texture(path);
   if (!reader) return 0;
   const auto largest = reader->header().levels[0];
   if (static_cast<int64_t>(largest.width) * largest.height * reader->header().channels > 1 << 22)
@@ -27,11 +31,17 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const render::TextureImage image(std::move(reader), memory);
     slvm::TextureLookup lookup;
     lookup.channels = 3;
-    const render::TextureFilter filter(image, lookup, image.header().swrap, image.header().twrap);
-    float out[3];
-    for (const float side : {0.0f, 0.01f, 0.3f, 5.0f})
-      if (!filter.mean({0.3f, 0.8f, side, 0, side, side * 0.1f}, out) && image.problem().empty())
-        std::abort();
+    render::TextureFilter filter(image, lookup, image.header().swrap, image.header().twrap);
+    render::TextureRegions regions;
+    render::TextureFilter::Means out;
+    constexpr float kSides[] = {0.0f, 0.01f, 0.3f, 5.0f};
+    for (size_t i = 0; i < std::size(kSides); ++i) {
+      regions.s[i] = 0.3f;
+      regions.t[i] = 0.8f;
+      regions.s_u[i] = regions.s_v[i] = kSides[i];
+      regions.t_v[i] = kSides[i] * 0.1f;
+    }
+    if (!filter.means(regions, 0xf, out) && image.problem().empty()) std::abort();
     for (size_t i = 0; i < image.levels(); ++i)
       if (!image.level(i).texels && image.problem().empty()) std::abort();
   }

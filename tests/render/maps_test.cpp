@@ -8,6 +8,7 @@
 #include "tests/temp_folder.h"
 
 #include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+
+constexpr TextureWrap kPeriodic = TextureWrap::kPeriodic, kClamp = TextureWrap::kClamp;
 
 class Maps : public ::testing::Test {
 protected:
@@ -84,7 +87,7 @@ Color ramp(float s, float t) {
 
 TEST_F(Maps, textures_have_levels_and_wraps) {
   std::string source = image("a.exr", 64, 64, ramp);
-  ASSERT_EQ(make_texture(source, path("a.tex"), {"periodic", "clamp", "triangle"}), "");
+  ASSERT_EQ(make_texture(source, path("a.tex"), {kPeriodic, kClamp, FilterKind::kTriangle}), "");
   auto in = OIIO::ImageInput::open(path("a.tex"));
   ASSERT_TRUE(in);
   EXPECT_EQ(in->spec().get_string_attribute("wrapmodes"), "periodic,clamp");
@@ -98,6 +101,82 @@ TEST_F(Maps, textures_have_levels_and_wraps) {
   EXPECT_NEAR(look_up(&TextureMaps::texture, path("a.tex"), {0.5f, 1.4f, 0}).y, 1, 0.01f);
   // The mean of all.
   EXPECT_NEAR(look_up(&TextureMaps::texture, path("a.tex"), {0.5f, 0.5f, 0}, 1).x, 0.5f, 0.05f);
+}
+
+/// All texels of all levels.
+std::vector<float> all_texels(const std::string& path) {
+  std::vector<float> out;
+  auto in = OIIO::ImageInput::open(path);
+  for (int level = 0; in && in->seek_subimage(0, level); ++level) {
+    const OIIO::ImageSpec& spec = in->spec();
+    std::vector<float> texels(static_cast<size_t>(spec.width * spec.height * spec.nchannels));
+    EXPECT_TRUE(in->read_image(0, level, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, texels.data()));
+    out.insert(out.end(), texels.begin(), texels.end());
+  }
+  return out;
+}
+
+TEST_F(Maps, levels_are_those_of_openimageio) {
+  const std::string source = image("a.tif", 64, 32, [](float s, float t) {
+    const float noise = std::sin(s * 1234) * std::cos(t * 987);
+    return Color(noise, s * t, noise * s);
+  });
+  OIIO::ImageBuf buffer(source);
+  auto compare = [&](OIIO::ImageBufAlgo::MakeTextureMode mode, const std::string& filter,
+                     const std::string& map) {
+    SCOPED_TRACE(map + " " + filter);
+    OIIO::ImageSpec config;
+    config.attribute("maketx:filtername", filter);
+    const bool flat = mode == OIIO::ImageBufAlgo::MakeTxTexture;
+    config.attribute("wrapmodes", flat ? "clamp,clamp" : "periodic,clamp");
+    ASSERT_TRUE(OIIO::ImageBufAlgo::make_texture(mode, buffer, path("theirs.tif"), config));
+    const std::vector<float> own = all_texels(path(map)), theirs = all_texels(path("theirs.tif"));
+    ASSERT_EQ(own.size(), theirs.size());
+    for (size_t i = 0; i < own.size(); ++i)
+      EXPECT_NEAR(own[i], theirs[i], 1e-4f);
+    // What textureinfo() and other readers want to know.
+    const OIIO::ImageSpec a = OIIO::ImageInput::open(path(map))->spec(),
+                          b = OIIO::ImageInput::open(path("theirs.tif"))->spec();
+    EXPECT_EQ(a.get_string_attribute("textureformat"), b.get_string_attribute("textureformat"));
+    EXPECT_EQ(a.get_string_attribute("wrapmodes"), b.get_string_attribute("wrapmodes"));
+    EXPECT_EQ(a.get_float_attribute("fovcot"), b.get_float_attribute("fovcot"));
+    EXPECT_EQ(a.tile_width, b.tile_width);
+    EXPECT_EQ(a.channelnames, b.channelnames);
+  };
+  for (const char* filter :
+       {"box", "triangle", "gaussian", "catmull-rom", "sinc", "mitchell", "disk", "blackman-harris"}) {
+    ASSERT_EQ(make_texture(source, path("a.tex"), {kClamp, kClamp, *find_filter(filter)}), "");
+    compare(OIIO::ImageBufAlgo::MakeTxTexture, filter, "a.tex");
+  }
+  ASSERT_EQ(make_latlong(source, path("a.env"), {kPeriodic, kClamp}), "");
+  compare(OIIO::ImageBufAlgo::MakeTxEnvLatl, "box", "a.env");
+}
+
+TEST_F(Maps, maps_have_the_numbers_of_their_images) {
+  auto type_of = [&](const std::string& map) {
+    return std::string(OIIO::ImageInput::open(path(map))->spec().format.c_str());
+  };
+  OIIO::ImageBuf buffer(OIIO::ImageSpec(8, 8, 3, OIIO::TypeDesc::UINT8));
+  const float grey[3] = {0.2f, 0.4f, 0.6f};
+  for (int i = 0; i < 64; ++i)
+    buffer.setpixel(i % 8, i / 8, grey);
+  for (const char* name : {"a.tif", "a.png"}) {
+    ASSERT_TRUE(buffer.write(path(name)));
+    ASSERT_EQ(make_texture(path(name), path("a.tex"), {}), "");
+    EXPECT_EQ(type_of("a.tex"), "uint8");
+    for (float v : all_texels(path("a.tex")))
+      EXPECT_NEAR(std::abs(v - 0.4f), v > 0.3f && v < 0.5f ? 0 : 0.2f, 1e-6f);
+    // Steps would show.
+    ASSERT_EQ(make_texture(path(name), path("soft.tex"), {kPeriodic, kClamp, FilterKind::kGaussian, 4, 4}),
+              "");
+    EXPECT_EQ(type_of("soft.tex"), "float");
+    ASSERT_EQ(make_bump(path(name), path("a.bump"), {}), "");
+    EXPECT_EQ(type_of("a.bump"), "float");
+    ASSERT_EQ(make_texture(path(name), path("a.exr"), {}), "");
+    EXPECT_EQ(type_of("a.exr"), "float");
+    EXPECT_TRUE(OIIO::ImageInput::open(path("a.exr"))->seek_subimage(0, 3));
+    EXPECT_EQ(OIIO::ImageInput::open(path("a.exr"))->spec().get_string_attribute("wrapmodes"), "black,black");
+  }
 }
 
 TEST_F(Maps, an_image_may_be_written_anew) {
@@ -123,7 +202,7 @@ TEST_F(Maps, latlong_environments_point_where_the_image_says) {
     float lon = s * 2 * kPi, lat = (0.5f - t) * kPi;
     return of_direction({std::cos(lon) * std::cos(lat), std::sin(lon) * std::cos(lat), std::sin(lat)});
   });
-  ASSERT_EQ(make_latlong(source, path("sky.env"), {"periodic", "clamp", "box"}), "");
+  ASSERT_EQ(make_latlong(source, path("sky.env"), {kPeriodic, kClamp, FilterKind::kBox}), "");
   for (Vec3 d : kDirections) {
     Color c = look_up(&TextureMaps::environment, path("sky.env"), d), want = of_direction(d);
     for (int i = 0; i < 3; ++i)
@@ -135,7 +214,7 @@ TEST_F(Maps, wide_filters_soften_textures) {
   const std::string source = image("a.exr", 8, 8, [](float s, float t) {
     return Color(s < 0.125f ? 8.0f : 0.0f, t < 0.125f ? 8.0f : 0.0f, 1.0f);
   });
-  MakeSettings settings{"periodic", "clamp", "box", 4, 2};
+  MakeSettings settings{kPeriodic, kClamp, FilterKind::kBox, 4, 2};
   ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
   auto texel = [&](int x, int y) {
     return look_up(&TextureMaps::texture, path("a.tex"),
@@ -150,20 +229,20 @@ TEST_F(Maps, wide_filters_soften_textures) {
     EXPECT_NEAR(texel(i, i).z, 1, 1e-5f) << i;
   }
   // Beyond a black side there is nothing.
-  settings.swrap = "black";
+  settings.swrap = TextureWrap::kBlack;
   ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
   EXPECT_NEAR(texel(0, 4).x, 2, 1e-4f);
   EXPECT_NEAR(texel(0, 4).z, 0.625f, 1e-4f);
   EXPECT_NEAR(texel(7, 4).x, 0, 1e-4f);
   // Usual widths change nothing.
-  for (const char* filter : {"gaussian", "triangle"}) {
-    settings = {"periodic", "clamp", filter, 2, 2};
+  for (const FilterKind filter : {FilterKind::kGaussian, FilterKind::kTriangle}) {
+    settings = {kPeriodic, kClamp, filter, 2, 2};
     ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
     EXPECT_NEAR(texel(0, 4).x, 8, 1e-4f);
     EXPECT_NEAR(texel(1, 4).x, 0, 1e-4f);
   }
   // A triangle as wide as 4: 1/4, 1/2, 1/4.
-  settings = {"periodic", "clamp", "triangle", 4, 4};
+  settings = {kPeriodic, kClamp, FilterKind::kTriangle, 4, 4};
   ASSERT_EQ(make_texture(source, path("a.tex"), settings), "");
   EXPECT_NEAR(texel(0, 4).x, 4, 1e-4f);
   EXPECT_NEAR(texel(1, 4).x, 2, 1e-4f);
@@ -182,7 +261,7 @@ TEST_F(Maps, wide_filters_soften_environments_by_the_same_angle_everywhere) {
       const Vec3 d(std::cos(lon) * std::cos(lat), std::sin(lon) * std::cos(lat), std::sin(lat));
       return Color(glm::dot(d, sun) > std::cos(0.1f) ? 100.0f : 0.0f, 1.0f, 0.5f);
     });
-    ASSERT_EQ(make_latlong(source, path("sky.env"), {"periodic", "clamp", "gaussian", 32, 32}), "");
+    ASSERT_EQ(make_latlong(source, path("sky.env"), {kPeriodic, kClamp, FilterKind::kGaussian, 32, 32}), "");
     Color c = look_up(&TextureMaps::environment, path("sky.env"), sun);
     middle[k] = c.x;
     EXPECT_NEAR(c.y, 1, 1e-3f);
@@ -230,7 +309,7 @@ TEST_F(Maps, six_faces_become_one_environment) {
     faces[i] = image("face" + std::to_string(i) + ".exr", 64, 64, [&](float s, float t) {
       return of_direction(axes[i][0] + axes[i][1] * (wide * (1 - 2 * t)) + axes[i][2] * (wide * (2 * s - 1)));
     });
-  ASSERT_EQ(make_cube_environment(faces, path("cube.env"), 95, {"periodic", "clamp", "box"}), "");
+  ASSERT_EQ(make_cube_environment(faces, path("cube.env"), 95, {kPeriodic, kClamp, FilterKind::kBox}), "");
   for (Vec3 d : kDirections) {
     Color c = look_up(&TextureMaps::environment, path("cube.env"), d), want = of_direction(d);
     for (int i = 0; i < 3; ++i)
@@ -248,7 +327,7 @@ TEST_F(Maps, faces_of_exactly_ninety_degrees_have_no_seams) {
     faces[i] = image("face" + std::to_string(i) + ".exr", 8, 8, [&](float s, float t) {
       return of_direction(axes[i][0] + axes[i][1] * (1 - 2 * t) + axes[i][2] * (2 * s - 1));
     });
-  ASSERT_EQ(make_cube_environment(faces, path("cube.env"), 90, {"periodic", "clamp", "box"}), "");
+  ASSERT_EQ(make_cube_environment(faces, path("cube.env"), 90, {kPeriodic, kClamp, FilterKind::kBox}), "");
   OIIO::ImageBuf map(path("cube.env"));
   ASSERT_TRUE(map.read(0, 0, true, OIIO::TypeDesc::FLOAT));
   ASSERT_EQ(map.spec().width, 32);
@@ -268,7 +347,7 @@ TEST_F(Maps, faces_of_exactly_ninety_degrees_have_no_seams) {
 
 TEST_F(Maps, bump_maps_are_textures_of_heights) {
   std::string source = image("a.exr", 64, 64, ramp);
-  ASSERT_EQ(make_bump(source, path("a.bump"), {"periodic", "clamp", "box"}), "");
+  ASSERT_EQ(make_bump(source, path("a.bump"), {kPeriodic, kClamp, FilterKind::kBox}), "");
   auto in = OIIO::ImageInput::open(path("a.bump"));
   ASSERT_TRUE(in);
   EXPECT_EQ(in->spec().nchannels, 1);

@@ -29,7 +29,7 @@ TEST_F(SlrenderTest, renders_a_file) {
   EXPECT_TRUE(exists("a.png"));
 }
 
-TEST_F(SlrenderTest, pictures_and_shadows_need_no_openimageio) {
+TEST_F(SlrenderTest, pictures_and_maps_need_no_openimageio) {
   // A copy of the program without the module that holds the library.
   fs::copy_file(SLRENDER_PROGRAM, directory_ / "alone");
   auto alone = [&](const std::string& rib) {
@@ -49,8 +49,39 @@ TEST_F(SlrenderTest, pictures_and_shadows_need_no_openimageio) {
   EXPECT_EQ(alone("Display \"a.z\" \"zfile\" \"z\" " + scene + "MakeShadow \"a.z\" \"a.shd\""), "");
   EXPECT_TRUE(exists("a.shd"));
   EXPECT_EQ(alone("Hider \"depthmask\" \"zfile\" \"a.shd\" Display \"c\" \"tiff\" \"rgb\" " + scene), "");
+  EXPECT_EQ(
+      alone(
+          "MakeTexture \"a.png\" \"a.tex\" \"black\" \"clamp\" \"gaussian\" 1 1 "
+          "MakeBump \"b.tif\" \"a.bump\" \"black\" \"clamp\" \"box\" 1 1 "
+          "MakeLatLongEnvironment \"b.tif\" \"a.env\" \"triangle\" 9 9 "
+          "MakeCubeFaceEnvironment \"a.png\" \"a.png\" \"b.tif\" \"a.png\" \"b.tif\" \"a.png\" \"b.env\" 90 "
+          "\"box\" 1 1 "),
+      "");
+  for (const char* name : {"a.tex", "a.bump", "a.env", "b.env"})
+    EXPECT_TRUE(exists(name)) << name;
+  EXPECT_THAT(alone("MakeTexture \"none.png\" \"none.tex\" \"black\" \"black\" \"box\" 1 1"),
+              HasSubstr("cannot read \"none.png\": there is no such file"));
   EXPECT_THAT(alone("Display \"a.exr\" \"openexr\" \"rgba\" " + scene),
               HasSubstr("without anemone_images.so (OpenImageIO) there are only TIFF and PNG files"));
+}
+
+/// The same map again and again: what is there under its name is always the whole of it.
+TEST_F(SlrenderTest, killed_while_it_makes_maps_it_leaves_whole_files) {
+  file("image.rib",
+       "Format 500 500 1 PixelSamples 1 1 Display \"a.tif\" \"tiff\" \"rgb\" WorldBegin Translate 0 0 5 "
+       "Sphere 1 -1 1 360 WorldEnd MakeTexture \"a.tif\" \"a.tex\" \"black\" \"black\" \"box\" 1 1");
+  EXPECT_EQ(run("image.rib").status, 0);
+  const auto size = fs::file_size(directory_ / "a.tex");
+  std::string maps;
+  for (int i = 0; i < 200; ++i)
+    maps += "MakeTexture \"a.tif\" \"a.tex\" \"black\" \"black\" \"box\" 1 1\n";
+  file("maps.rib", maps);
+  for (int i = 0; i < 8; ++i) {
+    const std::string command = fmt::format("cd '{}' && timeout -s KILL {} '{}' maps.rib",
+                                            directory_.string(), 0.05 + 0.043 * i, SLRENDER_PROGRAM);
+    EXPECT_NE(std::system(command.c_str()), 0);
+    EXPECT_EQ(fs::file_size(directory_ / "a.tex"), size);
+  }
 }
 
 TEST_F(SlrenderTest, statistics_as_text_and_json) {

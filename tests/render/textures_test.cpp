@@ -1,12 +1,14 @@
 // Textures: what is read of files, and means over regions beside sums over the texels.
 #include "render/texture/texture_filter.h"
 #include "render/texture/texture_lookups.h"
+#include "render/texture/texture_png.h"
 #include "render/texture/texture_tiff.h"
 #include "slvm/support/tiff_open.h"
 #include "tests/temp_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <cmath>
 #include <functional>
@@ -25,7 +27,7 @@ public:
   Made(int width, int height, Function f, int channels = 1) : f_(std::move(f)) {
     header_.levels = {{width, height}};
     header_.channels = channels;
-    header_.type = TexelType::kFloat;
+    header_.type = PixelType::kFloat;
   }
   std::string read(size_t, std::span<std::byte> texels) override {
     auto* to = reinterpret_cast<float*>(texels.data());
@@ -40,6 +42,11 @@ private:
   Function f_;
 };
 
+struct Region {
+  float s, t, s_u, t_u, s_v, t_v;
+  float sblur = 0, tblur = 0;
+};
+
 class Filter : public ::testing::Test {
 protected:
   void make(int width, int height, Made::Function f, int channels = 1) {
@@ -47,10 +54,24 @@ protected:
                                             memory_);
     lookup_.channels = 1;
   }
-  float mean(TextureRegion region) const {
-    float out[3] = {};
-    EXPECT_TRUE(TextureFilter(*image_, lookup_, swrap_, twrap_).mean(region, out));
-    return out[0];
+  /// In every lane the same.
+  float mean(const Region& region) const {
+    TextureFilter::Means out;
+    EXPECT_TRUE(TextureFilter(*image_, lookup_, swrap_, twrap_).means(everywhere(region), 0xffff, out));
+    for (const float other : out[0])
+      EXPECT_EQ(other, out[0][0]);
+    return out[0][0];
+  }
+  static TextureRegions everywhere(const Region& r) {
+    TextureRegions out;
+    for (size_t i = 0; i < TextureRegions::kBlock; ++i)
+      put(r, i, out);
+    return out;
+  }
+  static void put(const Region& r, size_t i, TextureRegions& out) {
+    out.s[i] = r.s, out.t[i] = r.t;
+    out.s_u[i] = r.s_u, out.t_u[i] = r.t_u, out.s_v[i] = r.s_v, out.t_v[i] = r.t_v;
+    out.sblur[i] = r.sblur, out.tblur[i] = r.tblur;
   }
   static float noise(int x, int y, int) {
     const double s = std::sin(x * 12.9898 + y * 78.233) * 43758.5453;
@@ -74,7 +95,7 @@ TEST_F(Filter, points_are_interpolated_between_the_middles_of_texels) {
 
 TEST_F(Filter, wraps) {
   make(4, 4, [](int x, int, int) { return static_cast<float>(x + 1); });
-  const TextureRegion left{-0.5f / 4, 0.5f, 0, 0, 0, 0}, right{9.5f / 4, 0.5f, 0, 0, 0, 0};
+  const Region left{-0.5f / 4, 0.5f, 0, 0, 0, 0}, right{9.5f / 4, 0.5f, 0, 0, 0, 0};
   EXPECT_FLOAT_EQ(mean(left), 4);
   EXPECT_FLOAT_EQ(mean(right), 2);
   swrap_ = TextureWrap::kClamp;
@@ -87,7 +108,7 @@ TEST_F(Filter, wraps) {
 }
 
 /// The mean of the texels by the shape of a region: a parallelogram, each point of it as good as another.
-float brute_force(int size, const Made::Function& f, const TextureRegion& r) {
+float brute_force(int size, const Made::Function& f, const Region& r) {
   constexpr int kSide = 200;
   double sum = 0;
   for (int j = 0; j < kSide; ++j)
@@ -118,8 +139,8 @@ TEST_F(Filter, regions_are_near_the_mean_of_their_texels) {
   constexpr int kTrials = 300;
   for (int k = 0; k < kTrials; ++k) {
     const float a = angle(random), u = side(random), v = side(random);
-    const TextureRegion r{place(random),   place(random),    u * std::cos(a),
-                          u * std::sin(a), -v * std::sin(a), v * std::cos(a)};
+    const Region r{place(random),   place(random),    u * std::cos(a),
+                   u * std::sin(a), -v * std::sin(a), v * std::cos(a)};
     const double error = static_cast<double>(mean(r) - brute_force(kSize, waves, r));
     worst = std::max(worst, std::abs(error));
     squares += error * error;
@@ -170,7 +191,7 @@ TEST_F(Filter, ramps_stay_what_they_are_under_all_filters) {
 
 TEST_F(Filter, cubic_filters_at_the_middle_of_a_texel) {
   make(16, 16, [](int x, int y, int) { return x == 8 && y == 8 ? 1.0f : 0.0f; });
-  const TextureRegion texel{8.5f / 16, 8.5f / 16, 0, 0, 0, 0}, beside{9.5f / 16, 8.5f / 16, 0, 0, 0, 0};
+  const Region texel{8.5f / 16, 8.5f / 16, 0, 0, 0, 0}, beside{9.5f / 16, 8.5f / 16, 0, 0, 0, 0};
   lookup_.options.filter = "catmull-rom";
   EXPECT_NEAR(mean(texel), 1, 1e-6f);
   EXPECT_NEAR(mean(beside), 0, 1e-6f);
@@ -185,15 +206,51 @@ TEST_F(Filter, channels_that_are_not_there_are_filled) {
   lookup_.channels = 3;
   lookup_.first_channel = 1;
   lookup_.options.fill = 0.25f;
-  float out[3] = {};
-  EXPECT_TRUE(TextureFilter(*image_, lookup_, swrap_, twrap_).mean({0.5f, 0.5f, 0, 0, 0, 0}, out));
-  EXPECT_THAT(out, ElementsAre(2, 0.25f, 0.25f));
+  TextureFilter::Means out;
+  const TextureRegions regions = everywhere({0.5f, 0.5f, 0, 0, 0, 0});
+  EXPECT_TRUE(TextureFilter(*image_, lookup_, swrap_, twrap_).means(regions, 0xffff, out));
+  EXPECT_THAT((std::array{out[0][5], out[1][5], out[2][5]}), ElementsAre(2, 0.25f, 0.25f));
+}
+
+// Bit by bit: a picture must not depend on how its points are grouped.
+TEST_F(Filter, regions_do_not_depend_on_their_neighbours) {
+  make(64, 32, noise);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-1, 2), side(-0.2f, 0.2f);
+  for (const char* name : {"", "triangle", "gaussian", "catmull-rom"}) {
+    lookup_.options.filter = name;
+    TextureRegions regions;
+    std::vector<Region> each;
+    for (size_t i = 0; i < TextureRegions::kBlock; ++i) {
+      each.push_back({place(random), place(random), side(random), side(random), side(random), side(random)});
+      put(each.back(), i, regions);
+    }
+    TextureFilter::Means all, some;
+    TextureFilter filter(*image_, lookup_, swrap_, twrap_);
+    EXPECT_TRUE(filter.means(regions, 0xffff, all));
+    EXPECT_TRUE(filter.means(regions, 0x8421, some));
+    for (size_t i = 0; i < TextureRegions::kBlock; ++i) {
+      EXPECT_EQ(all[0][i], mean(each[i])) << name << i;
+      if (0x8421 >> i & 1) {
+        EXPECT_EQ(all[0][i], some[0][i]) << name << i;
+      }
+    }
+  }
+}
+
+// Texels that are infinite do not spread to where they have no part.
+TEST_F(Filter, infinite_texels_stay_where_they_are) {
+  make(8, 8, [](int x, int, int) { return x < 4 ? 1.0f : INFINITY; });
+  EXPECT_EQ(mean({3.5f / 8, 0.5f, 0, 0, 0, 0}), 1);
+  EXPECT_EQ(mean({4.5f / 8, 0.5f, 0, 0, 0, 0}), INFINITY);
 }
 
 TEST_F(Filter, regions_that_are_no_numbers_are_points) {
   make(4, 4, [](int x, int, int) { return static_cast<float>(x); });
   const float nan = std::nanf("");
   EXPECT_FLOAT_EQ(mean({1.5f / 4, 0.5f, nan, 0, 0, INFINITY}), 1);
+  EXPECT_FLOAT_EQ(mean({1.5f / 4, 0.5f, 1e30f, 0, 0, 0}), 1);
+  EXPECT_EQ(mean({nan, 0.5f, 0, 0, 0, 0}), 0); // nowhere
 }
 
 TEST(TextureLevels, odd_sizes_keep_the_mean) {
@@ -209,6 +266,15 @@ TEST(TextureLevels, odd_sizes_keep_the_mean) {
     EXPECT_EQ(memory, (35 + 6 + 1) * 4);
   }
   EXPECT_EQ(memory, 0);
+}
+
+TEST(TextureLevels, rows_may_be_too_long) {
+  std::atomic<long long> memory{0};
+  const TextureImage image(std::make_unique<Made>(
+                               1 << 16, 1, [](int, int, int) { return 0.0f; }, 1 << 14),
+                           memory);
+  EXPECT_EQ(image.level(0).texels, nullptr);
+  EXPECT_EQ(image.problem(), "its rows are too long");
 }
 
 // ---- Files.
@@ -334,6 +400,91 @@ TEST_F(Files, tiff_of_all_kinds) {
           for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(got[static_cast<size_t>(c)], c < channels ? value(21, 18, c) : -1, 1e-5f) << c;
         }
+}
+
+/// A PNG file whose pixel (x, y) is number x + y of so many bits in all channels but alpha, which is half of
+/// all.
+void write_png(const std::string& path, int bits, int type, int interlace) {
+  constexpr int kSize = 24;
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, file);
+  png_set_IHDR(png, info, kSize, kSize, bits, type, interlace, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  if (type == PNG_COLOR_TYPE_PALETTE) {
+    png_color colours[48];
+    for (int i = 0; i < 48; ++i)
+      colours[i] = {static_cast<png_byte>(i), static_cast<png_byte>(2 * i), static_cast<png_byte>(3 * i)};
+    png_set_PLTE(png, info, colours, 48);
+  }
+  png_write_info(png, info);
+  if (bits < 8) png_set_packing(png);
+  std::vector<std::vector<png_byte>> rows(kSize);
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x)
+      for (int c = 0; c < png_get_channels(png, info); ++c) {
+        const bool alpha = (type & PNG_COLOR_MASK_ALPHA) && c + 1 == png_get_channels(png, info);
+        const int value = (alpha ? 1 << (bits - 1) : x + y) & ((1 << bits) - 1);
+        if (bits == 16) rows[static_cast<size_t>(y)].push_back(static_cast<png_byte>(value >> 8));
+        rows[static_cast<size_t>(y)].push_back(static_cast<png_byte>(value));
+      }
+  std::vector<png_bytep> pointers;
+  for (auto& row : rows)
+    pointers.push_back(row.data());
+  png_write_image(png, pointers.data());
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  std::fclose(file);
+}
+
+TEST_F(Files, png_of_all_kinds) {
+  TextureLookups lookups(100);
+  struct Kind {
+    int bits, type;
+  };
+  for (const Kind k : {Kind{1, PNG_COLOR_TYPE_GRAY},
+                       {4, PNG_COLOR_TYPE_GRAY},
+                       {8, PNG_COLOR_TYPE_GRAY},
+                       {16, PNG_COLOR_TYPE_GRAY},
+                       {8, PNG_COLOR_TYPE_PALETTE},
+                       {8, PNG_COLOR_TYPE_RGB},
+                       {16, PNG_COLOR_TYPE_RGB},
+                       {8, PNG_COLOR_TYPE_GRAY_ALPHA},
+                       {8, PNG_COLOR_TYPE_RGB_ALPHA},
+                       {16, PNG_COLOR_TYPE_RGB_ALPHA}})
+    for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
+      SCOPED_TRACE(std::to_string(k.bits) + " bits, type " + std::to_string(k.type));
+      const std::string path =
+          (folder_ / ("a" + std::to_string(100 * k.type + 2 * k.bits + interlace))).string();
+      write_png(path, k.bits, k.type, interlace);
+      const auto reader = open_png_texture(path);
+      ASSERT_TRUE(reader);
+      EXPECT_EQ(reader->header().type, k.bits == 16 ? PixelType::kShort : PixelType::kByte);
+      const auto got = texel(lookups, path, 3, 2);
+      EXPECT_EQ(problem_, "");
+      const int most = (1 << k.bits) - 1;
+      const bool alpha = k.type & PNG_COLOR_MASK_ALPHA, gray = !(k.type & PNG_COLOR_MASK_COLOR);
+      const float part = alpha ? static_cast<float>(1 << (k.bits - 1)) / static_cast<float>(most) : 1.0f,
+                  value = static_cast<float>(5 & most) / static_cast<float>(most) * part,
+                  near = alpha ? 0.6f / 255 : 1e-6f;
+      EXPECT_NEAR(got[0], value, near);
+      EXPECT_NEAR(got[1],
+                  gray                               ? (alpha ? part : -1)
+                  : k.type == PNG_COLOR_TYPE_PALETTE ? 2 * value
+                                                     : value,
+                  near);
+      EXPECT_NEAR(got[2], gray ? -1 : k.type == PNG_COLOR_TYPE_PALETTE ? 3 * value : value, near);
+    }
+}
+
+TEST_F(Files, damaged_png_is_said) {
+  const std::string path = (folder_ / "a.png").string();
+  write_png(path, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  TextureLookups lookups(100);
+  EXPECT_EQ(texel(lookups, path, 20, 20)[0], 0);
+  EXPECT_NE(problem_, "");
 }
 
 TEST_F(Files, further_pictures_are_levels_if_they_are_half_as_large) {

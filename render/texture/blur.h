@@ -2,17 +2,16 @@
 #pragma once
 
 #include "render/texture/make_maps.h"
+#include "render/texture/pixels.h"
 
-#include <OpenImageIO/imagebuf.h>
+namespace render {
 
-namespace render::oiio {
-
-/// Blurs an image of floats by the filter and the widths of the settings, in its pixels. Beyond its sides
+/// Blurs an image by the filter and the widths of the settings, in its pixels. Beyond its sides
 /// there is what the wraps say.
-void blur(OIIO::ImageBuf& image, const MakeSettings& settings);
+void blur(FloatImage& image, const MakeSettings& settings);
 
 /// The same for latitudes and longitudes: widths are those at the equator, and the same angle everywhere.
 /// What comes out is smaller where that loses nothing.
-void blur_sphere(OIIO::ImageBuf& image, MakeSettings settings);
+void blur_sphere(FloatImage& image, MakeSettings settings);
 
-} // namespace render::oiio
+} // namespace render
