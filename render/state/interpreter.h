@@ -294,7 +294,7 @@ private:
 
   // procedurals
   void procedural(const RequestCall&);
-  void complete_solids();
+  void complete_early();
   void run(const Procedural&, float area);
   void run_program(const Procedural&, float area);
   void run_plug_in(const Procedural&, float area);

@@ -142,10 +142,31 @@ void Interpreter::shader(const RequestCall& call) {
   }
 }
 
+namespace {
+
+/// As BMRT and its kin call it; "samples" is the younger name.
+uint32_t area_light_samples(const Attributes& attributes) {
+  constexpr float kMost = 65536;
+  for (const char* name : {"light:nsamples", "light:samples"})
+    if (auto it = attributes.named.find(name); it != attributes.named.end())
+      return static_cast<uint32_t>(std::clamp(it->second.numbers[0], 1.0f, kMost));
+  return ShaderRequest().samples;
+}
+
+} // namespace
+
 void Interpreter::light_source(const RequestCall& call) {
-  if (call.text(0) == "null") return;
+  const bool area = call.id == RequestId::kAreaLightSource;
+  if (call.text(0) == "null") {
+    if (area) edit().area_light = nullptr;
+    return;
+  }
   auto light = make_shader(call);
   light->handle = call.text(1);
+  if (area) {
+    light->samples = area_light_samples(*attributes_);
+    edit().area_light = light;
+  }
   // A handle that is used again names the new light from here on; the old one goes on shining.
   lights_[light->handle] = light;
   edit().lights.push_back(light);

@@ -111,17 +111,21 @@ Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<cons
   return &p;
 }
 
-/// Carries out the procedurals among the operands of solids: these must be known before any is drawn.
-void Interpreter::complete_solids() {
+/// Carries out the procedurals among the operands of solids and the surfaces of area lights: these must be
+/// known before anything is drawn.
+void Interpreter::complete_early() {
   Camera camera(scene_.options);
   const PixelFilter& filter = scene_.options.filter;
   std::vector<Procedural> others;
   for (size_t i = 0; i < scene_.procedurals.size() && !stopped_; ++i) {
     Procedural p = std::move(scene_.procedurals[i]);
-    if (!p.solid.is_operand())
+    auto seen = seen_bound(p, camera, {filter.xwidth, filter.ywidth});
+    if (p.attributes->area_light)
+      run(p, (seen ? seen->area : 0) * scene_.options.relative_detail); // may add to the row
+    else if (!p.solid.is_operand())
       others.push_back(std::move(p));
-    else if (auto seen = seen_bound(p, camera, {filter.xwidth, filter.ywidth}))
-      run(p, seen->area * scene_.options.relative_detail); // may add to the row
+    else if (seen)
+      run(p, seen->area * scene_.options.relative_detail);
   }
   scene_.procedurals = std::move(others);
 }
@@ -130,7 +134,7 @@ SceneContent Interpreter::make_content(const Procedural& p, float area) {
   if (stopped_) return {};
   auto spaces = spaces_;
   run(p, area * scene_.options.relative_detail);
-  complete_solids();
+  complete_early();
   scene_.copies.clear();
   SceneContent content{std::exchange(scene_.primitives, {}), std::exchange(scene_.procedurals, {}), {}};
   for (const auto& [name, space] : spaces_)
