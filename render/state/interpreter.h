@@ -21,6 +21,7 @@
 namespace render {
 
 class BlobbyGround;
+struct LeftOut;
 struct SubdivisionMesh;
 
 /// Requests that change the current transformation.
@@ -286,7 +287,10 @@ private:
   void trim_curve(const RequestCall&);
   /// Types and checks of the variables of a primitive; those with errors are left out.
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
-  bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P);
+  /// `all_finite`: else points that are not finite may be among them.
+  bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P,
+                      bool all_finite = true);
+  void say_left_out(const RequestCall&, int argument, std::string_view element, const LeftOut&);
   std::shared_ptr<const PrimitiveState> primitive_state();
   /// Farthest a displacement moves a point, in camera space.
   float displacement_bound_of(const Attributes& attributes, const Matrix4& object_to_camera) const;

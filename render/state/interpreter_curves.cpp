@@ -2,6 +2,7 @@
 #include "render/prims/blobby.h"
 #include "render/prims/curves.h"
 #include "render/state/interpreter.h"
+#include "render/state/left_out.h"
 #include "render/texture/find_image.h"
 
 #include <fmt/format.h>
@@ -27,10 +28,11 @@ void Interpreter::curves(const RequestCall& call) {
   layout.cubic = call.text(0) == "cubic";
   layout.periodic = call.text(2) == "periodic";
   layout.basis = attributes_->vbasis;
-  std::span<const int> counts = call.integers(1);
+  std::vector<int> counts(call.integers(1).begin(), call.integers(1).end());
   std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
-  if (!take_positions(call, vars, P)) return;
+  if (!take_positions(call, vars, P, false)) return;
+  say_left_out(call, 1, "curve", leave_out_bad_curves(layout, counts, P, vars));
   auto state = primitive_state();
   add_curves(layout, counts, std::move(P), std::move(vars), eye_in_object(options_, *state), state,
              scene_.primitives);

@@ -286,10 +286,15 @@ TEST(Interpreter, geometry_that_cannot_be) {
       {"Polygon \"N\" [0 0 1]", "Polygon: \"P\" is missing"},
       {"Polygon \"P\" [0 0 0 1 1 1]", "a polygon has at least 3 vertices, found 2"},
       {"PointsPolygons [2 3] [0 1 0 1 2] \"P\" [0 0 0 1 1 1 0 1 0]",
-       "warning: PointsPolygons: 1 of 2 faces have fewer than 3 vertices and are left out"},
+       "warning: PointsPolygons: 1 of 2 faces cannot be drawn and is left out; face 0, counted from 0, has 2 "
+       "vertices"},
       {"PointsPolygons [3] [0 1] \"P\" [0 0 0 1 1 1]", "'nvertices' asks for 3 vertex numbers, found 2"},
-      {"PointsPolygons [3] [0 1 -2] \"P\" [0 0 0]", "-2 is not a vertex number; these start at 0"},
-      {"PointsPolygons [3] [0 1 2] \"P\" [0 0 0]", "\"P\" (vertex point) takes 9 numbers, found 3"},
+      {"PointsPolygons [3] [0 0 -2] \"P\" [0 0 0]",
+       "face 0, counted from 0, has the vertex -2, and there are 1"},
+      {"PointsPolygons [3 3] [0 1 2 2 1 0] \"P\" [0 0 0]",
+       "warning: PointsPolygons: 2 of 2 faces cannot be drawn and are left out; the first, face 0, counted "
+       "from "
+       "0, has the vertex 1, and there are 1"},
       {"Patch \"bicubic\" \"P\" [0 0 0]", "\"P\" (vertex point) takes 48 numbers, found 3"},
       {"Patch \"cubic\" \"P\" [0 0 0]", "unknown type \"cubic\""},
   };
