@@ -181,8 +181,10 @@ void Interpreter::add_patch(std::shared_ptr<const Geometry> geometry, std::span<
 
 void Interpreter::quadric(const RequestCall& call) {
   auto geometry = make_quadric(call);
-  if (!geometry) {
-    error(call, geometry.error());
+  if (!geometry) { // what shrinks to nothing in an animation, and what programs write
+    warn_once(fmt::format("empty {} {}", call.info().name, geometry.error()), call.where, "rib",
+              fmt::format("{}: {}; nothing is drawn, here and wherever it is so", call.info().name,
+                          geometry.error()));
     return;
   }
   std::vector<TypedParam> vars = primitive_vars(call, {});
