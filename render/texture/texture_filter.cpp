@@ -83,6 +83,7 @@ TextureFilter::TextureFilter(const TextureImage& image, const slvm::TextureLooku
   width_ = static_cast<float>(header.levels[0].width);
   height_ = static_cast<float>(header.levels[0].height);
   fill_ = o.fill;
+  ignore_above_ = o.ignore_above;
   between_levels_ = o.between_levels;
   one_sample_ = o.samples == 1;
   constexpr float kMostPlaces = 16;
@@ -117,8 +118,9 @@ bool TextureFilter::mean(const TextureRegion& region, float* out) const {
   std::fill_n(out, channels_, 0.0f);
   const Ellipse ellipse = ellipse_of(region);
   bool read = true;
+  float counted = 0; // weight of the texels that count
   if (one_sample_ && ellipse.longest == 0) {
-    read = add_level(region, ellipse, 0, 1, Interpolation::kNearest, out);
+    read = add_level(region, ellipse, 0, 1, Interpolation::kNearest, out, counted);
   } else {
     const float texel = std::max({ellipse.shortest / kSpread, ellipse.longest / most_places_, 1.0f});
     const float level = std::min(std::log2(texel), static_cast<float>(image_.levels() - 1));
@@ -128,16 +130,19 @@ bool TextureFilter::mean(const TextureRegion& region, float* out) const {
       lower += part >= 0.5f;
       part = 0;
     }
-    if (part < 1) read = add_level(region, ellipse, lower, 1 - part, interpolation_, out);
-    if (part > 0 && read) read = add_level(region, ellipse, lower + 1, part, interpolation_, out);
+    if (part < 1) read = add_level(region, ellipse, lower, 1 - part, interpolation_, out, counted);
+    if (part > 0 && read) read = add_level(region, ellipse, lower + 1, part, interpolation_, out, counted);
   }
+  if (ignore_above_ < std::numeric_limits<float>::infinity())
+    for (size_t c = 0; c < present_; ++c)
+      out[c] = counted > 0 ? out[c] / counted : 0.0f;
   std::fill(out + present_, out + channels_, fill_);
   return read;
 }
 
 /// The mean over the places along the long axis, in one level.
 bool TextureFilter::add_level(const TextureRegion& region, const Ellipse& ellipse, size_t index, float weight,
-                              Interpolation way, float* out) const {
+                              Interpolation way, float* out, float& counted) const {
   const TextureImage::Level level = image_.level(index);
   if (!level.texels) return false;
   // So many places, so far apart, that the spread is that of the whole side.
@@ -147,9 +152,9 @@ bool TextureFilter::add_level(const TextureRegion& region, const Ellipse& ellips
   const float scale = places > 1 ? rest / (longest * std::sqrt(1 - 1 / (places * places))) : 0;
   auto add = [&](float s, float t, float w) {
     switch (image_.header().type) {
-    case TexelType::kByte: add_texels<uint8_t>(level, way, s, t, w, out); break;
-    case TexelType::kShort: add_texels<uint16_t>(level, way, s, t, w, out); break;
-    case TexelType::kFloat: add_texels<float>(level, way, s, t, w, out); break;
+    case TexelType::kByte: add_texels<uint8_t>(level, way, s, t, w, out, counted); break;
+    case TexelType::kShort: add_texels<uint16_t>(level, way, s, t, w, out, counted); break;
+    case TexelType::kFloat: add_texels<float>(level, way, s, t, w, out, counted); break;
     }
   };
   auto place = [&](float i) { return (2 * i + 1) / places - 1; };
@@ -166,8 +171,8 @@ bool TextureFilter::add_level(const TextureRegion& region, const Ellipse& ellips
 
 template <class T>
 void TextureFilter::add_texels(const TextureImage::Level& level, Interpolation way, float s, float t,
-                               float weight, float* out) const {
-  if constexpr (!std::is_same_v<T, float>) weight /= static_cast<float>(std::numeric_limits<T>::max());
+                               float weight, float* out, float& counted) const {
+  const float scale = std::is_same_v<T, float> ? 1.0f : 1 / static_cast<float>(std::numeric_limits<T>::max());
   const Taps columns = taps(way, s * static_cast<float>(level.width), level.width, wrap_[0]),
              rows = taps(way, t * static_cast<float>(level.height), level.height, wrap_[1]);
   const auto texel = static_cast<size_t>(image_.header().channels);
@@ -177,11 +182,18 @@ void TextureFilter::add_texels(const TextureImage::Level& level, Interpolation w
                         static_cast<size_t>(columns.at[i]);
       const std::byte* from = level.texels + (at * texel + first_) * sizeof(T);
       const float w = weight * rows.weight[j] * columns.weight[i];
+      float values[slvm::TextureLookup::kMost];
+      bool counts = true;
       for (size_t c = 0; c < present_; ++c) {
         T value;
         std::memcpy(&value, from + c * sizeof(T), sizeof(T));
-        out[c] += w * static_cast<float>(value);
+        values[c] = static_cast<float>(value);
+        counts = counts && !(values[c] * scale > ignore_above_);
       }
+      if (!counts) continue;
+      counted += w;
+      for (size_t c = 0; c < present_; ++c)
+        out[c] += w * scale * values[c];
     }
 }
 

@@ -37,14 +37,14 @@ private:
   };
   Ellipse ellipse_of(const TextureRegion& region) const;
   bool add_level(const TextureRegion& region, const Ellipse& ellipse, size_t level, float weight,
-                 Interpolation way, float* out) const;
+                 Interpolation way, float* out, float& counted) const;
   template <class T>
   void add_texels(const TextureImage::Level& level, Interpolation way, float s, float t, float weight,
-                  float* out) const;
+                  float* out, float& counted) const;
 
   const TextureImage& image_;
   TextureWrap wrap_[2];
-  float width_, height_, most_places_, fill_;
+  float width_, height_, most_places_, fill_, ignore_above_;
   bool between_levels_, one_sample_, gaussian_, triangle_;
   Interpolation interpolation_;
   size_t first_, present_, channels_; ///< present: of the channels, those that the image has
