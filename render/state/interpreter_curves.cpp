@@ -88,13 +88,11 @@ float micropolygon_in_object(const Box& bound, const PrimitiveState& state, cons
 } // namespace
 
 void Interpreter::blobby(const RequestCall& call) {
-  auto field = BlobbyField::make(call.integers(1), call.numbers(2),
-                                 [&](int string) { return blobby_ground(call, string); });
-  if (!field) {
-    error(call, field.error());
-    return;
-  }
-  size_t leaves = field->leaves();
+  const auto field = BlobbyField::make(
+      call.integers(1), call.numbers(2),
+      [&](const std::string& text) { warn_at(call.arguments[1].where, call, text); },
+      [&](int string) { return blobby_ground(call, string); });
+  size_t leaves = field.leaves();
   if (call.integer(0) < 0 || static_cast<size_t>(call.integer(0)) != leaves)
     warn(call,
          fmt::format("'nleaf' is {}, but the code has {} leaves, and that counts", call.integer(0), leaves));
@@ -102,8 +100,8 @@ void Interpreter::blobby(const RequestCall& call) {
   auto state = primitive_state();
   // Quadrilaterals of two micropolygons a side, with smooth normals, show no corners.
   float wanted =
-      field->bound().empty() ? 0 : 2 * micropolygon_in_object(field->bound(), *state, scene_.options);
-  add_blobby(*field, wanted, vars, state, scene_.primitives);
+      field.bound().empty() ? 0 : 2 * micropolygon_in_object(field.bound(), *state, scene_.options);
+  add_blobby(field, wanted, vars, state, scene_.primitives);
 }
 
 } // namespace render
