@@ -306,6 +306,7 @@ private:
   Procedural* keep_procedural(const RequestCall&, std::span<const float> bound, slvm::SourceRange where);
   slvm::Result<std::unique_ptr<Program>> start_program(const Procedural&);
   void report(const Procedural&, std::string_view text);
+  bool never_ends(const Procedural&, const std::string& what);
 
   slvm::SourceManager& sources_;
   slvm::Diagnostics& diagnostics_;
@@ -333,7 +334,10 @@ private:
   Scene scene_;
   /// By name; null: it failed. What procedurals hold of a plug-in is gone before the plug-in is.
   std::map<std::string, std::shared_ptr<PlugIn>> plug_ins_;
-  size_t procedurals_ = 0;                                   ///< seen so far in the world block
+  size_t procedurals_ = 0;                   ///< seen so far in the world block
+  size_t repetitions_ = 0;                   ///< of them, carried out that came out of the same
+  std::set<std::string> endless_;            ///< those that do not end by themselves
+  std::shared_ptr<const Ancestry> ancestry_; ///< of what the procedural being carried out makes
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
   int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
   bool in_world_ = false;

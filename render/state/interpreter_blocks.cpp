@@ -117,7 +117,8 @@ void Interpreter::world_end(const RequestCall& call) {
   }
   in_world_ = false;
   scene_ = {};
-  procedurals_ = 0;
+  procedurals_ = repetitions_ = 0;
+  endless_.clear();
 }
 
 void Interpreter::attribute_begin(const RequestCall& call) {
