@@ -20,8 +20,14 @@ void Interpreter::attribute(const RequestCall& call) {
     if (!named) continue;
     edit().named[category + ":" + named->first] = named->second;
     if (auto problem = set_ray_attribute(edit().rays, category, named->first, named->second);
-        problem && !problem->empty())
-      error_at(p.where, call, fmt::format("\"{}\" {}", named->first, *problem));
+        problem && !problem->empty()) {
+      const std::string text = fmt::format("\"{}\" {}", named->first, *problem);
+      if (named->first == "shadingmodel") // each release has other ones
+        warn_once(fmt::format("shadingmodel {}", fmt::join(named->second.strings, " ")), p.where, "rib",
+                  fmt::format("Attribute: {}", text));
+      else
+        error_at(p.where, call, text);
+    }
     attribute_parameter(call, p, named->first, named->second);
   }
 }

@@ -143,5 +143,24 @@ TEST(Parameters, hiders_that_are_not_there) {
   EXPECT_THAT(messages_of("MakeOcclusion [\"a.z\"] \"a.occ\""), HasSubstr("no occlusion map is made"));
 }
 
+TEST(Parameters, of_later_releases) {
+  const std::string layer = "ShaderLayer \"surface\" \"wood\" \"a\" \"float k\" [1] ";
+  const std::string said = messages_of("WorldBegin " + layer + layer +
+                                       "Sides 2 "
+                                       "ConnectShaderLayers \"surface\" \"a\" \"k\" \"b\" \"k\" WorldEnd");
+  const std::string text = "ShaderLayer is of later releases and is skipped: shaders are not put together of "
+                           "layers; the last Surface, Displacement ... counts";
+  EXPECT_THAT(said, HasSubstr(text));
+  EXPECT_EQ(said.find(text), said.rfind(text));
+  EXPECT_THAT(said, HasSubstr("ConnectShaderLayers is of later releases"));
+  const std::string model = "Attribute \"photon\" \"string shadingmodel\" ";
+  const std::string volume = messages_of(model + "\"isotropic\" " + model + "\"isotropic\"");
+  EXPECT_THAT(volume, HasSubstr("warning: Attribute: \"shadingmodel\" \"isotropic\" is not known; known are "
+                                "\"matte\", \"translucent\""));
+  EXPECT_EQ(volume.find("isotropic"), volume.rfind("\"isotropic\" is not known") + 1);
+  EXPECT_EQ(messages_of(model + "\"refractive:ior=1.4\" " + model + "\"dielectric\""), "");
+  EXPECT_THAT(messages_of(model + "\"glass:ior=0.4\""), HasSubstr("has an index of refraction of 1 or more"));
+}
+
 } // namespace
 } // namespace render::testing
