@@ -162,5 +162,19 @@ TEST(Parameters, of_later_releases) {
   EXPECT_THAT(messages_of(model + "\"glass:ior=0.4\""), HasSubstr("has an index of refraction of 1 or more"));
 }
 
+TEST(Parameters, deep_shadow_maps_become_shadow_maps_and_appended_ones_are_told) {
+  const Rendered r = render_text("Display \"a.dsm\" \"deepshad\" \"deepopacity\" WorldBegin WorldEnd");
+  EXPECT_THAT(r.messages,
+              HasSubstr("Display \"deepshad\": maps of more than one depth are not made; a shadow map of "
+                        "the first opaque surfaces is, and what is transparent casts no shadow"));
+  ASSERT_EQ(r.scene.options.displays.size(), 1u);
+  EXPECT_EQ(r.scene.options.displays[0].type, "shadow");
+  EXPECT_EQ(r.scene.options.displays[0].mode, "z");
+  EXPECT_THAT(
+      messages_of("Display \"a.z\" \"shadow\" \"z\" \"float append\" [1]"),
+      HasSubstr("\"append\" has no effect: files hold one picture: the last one stays; give each a name of "
+                "its own"));
+}
+
 } // namespace
 } // namespace render::testing
