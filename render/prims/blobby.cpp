@@ -349,6 +349,12 @@ void BlobbyField::shares(Vec3d p, std::span<double> out) const {
     s = sum > 0 ? s / sum : 1 / static_cast<double>(out.size());
 }
 
+Vec3d BlobbyField::in_leaf(size_t leaf, Vec3d p) const {
+  for (const Node& n : nodes_)
+    if (n.operands.empty() && leaf-- == 0) return transform(n.to_leaf, p);
+  return p;
+}
+
 Vec3d BlobbyField::outwards(Vec3d p, double step) const {
   Vec3d slope;
   for (int c = 0; c < 3; ++c) {

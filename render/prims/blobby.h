@@ -37,6 +37,9 @@ public:
   /// Unit vector to where the field falls fastest.
   glm::dvec3 outwards(glm::dvec3 p, double step) const;
   size_t leaves() const { return leaf_count_; }
+  /// A point as leaf `leaf` has it: in the space where it is a unit sphere or a plain segment. Constants,
+  /// grounds and what cannot be have none of their own.
+  glm::dvec3 in_leaf(size_t leaf, glm::dvec3 p) const;
   /// Around all leaves but constants and grounds, which are everywhere.
   Box bound() const { return bound_; }
   /// The smallest radius of a leaf.

@@ -66,6 +66,12 @@ std::vector<TypedParam> Interpreter::primitive_vars(const RequestCall& call, con
       continue;
     }
     const Declaration& d = *declared;
+    if (d.mpoint && (call.id != RequestId::kBlobby || !interpolates(d.storage) || d.elements)) {
+      error_at(
+          p.where, call,
+          fmt::format("\"{}\" is an mpoint: a Blobby has these, one vertex value for each leaf", d.name));
+      continue;
+    }
     bool text = d.type == slvm::Type::kString;
     size_t have = text ? p.strings.size() : p.numbers.size();
     size_t want = sizes.of(d.storage) * static_cast<size_t>(d.width());

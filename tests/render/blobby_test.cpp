@@ -252,6 +252,35 @@ TEST(Blobby, the_picture_is_a_disc) {
   EXPECT_NEAR(r.covered(), kPi * 1600, kPi * 16);
 }
 
+TEST(Blobby, mpoints_are_where_the_leaves_would_be) {
+  // Two leaves, of which the second one is scaled and moved; in the other pose both are unit spheres, at x =
+  // 5 and x = 9.
+  const std::string rib = "Blobby 2 [1001 0 1001 16 0 2 0 1] [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 "
+                          "2 0 0 0 0 2 0 0 0 0 2 0 1 0 0 1] [\"\"] \"vertex mpoint Pref\" "
+                          "[1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 9 0 0 1]";
+  Scene s = scene_of(rib);
+  ASSERT_FALSE(s.primitives.empty());
+  for (const Primitive& p : s.primitives) {
+    SurfaceLattice l;
+    float zero = 0;
+    p.geometry->evaluate({{&zero, 1}, {&zero, 1}}, l);
+    const glm::dvec3 at(l.P[0]), second = (at - glm::dvec3(1, 0, 0)) / 2.0;
+    const double a = sphere(glm::length(at)), b = sphere(glm::length(second));
+    const glm::dvec3 expected =
+        (a * (at + glm::dvec3(5, 0, 0)) + b * (second + glm::dvec3(9, 0, 0))) / (a + b);
+    ASSERT_EQ(p.vars.size(), 1u);
+    const PatchVar var = p.vars[0];
+    EXPECT_EQ(var.type, slvm::Type::kPoint);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(var.values[static_cast<size_t>(c)], expected[c], 1e-4);
+  }
+  EXPECT_THAT(
+      messages_of("WorldBegin Sphere 1 -1 1 360 \"vertex mpoint Pref\" [1] WorldEnd"),
+      HasSubstr("error: Sphere: \"Pref\" is an mpoint: a Blobby has these, one vertex value for each leaf"));
+  EXPECT_THAT(messages_of("Attribute \"user\" \"uniform mpoint m\" [1]"),
+              HasSubstr("\"m\" is an mpoint: only a Blobby has these"));
+}
+
 TEST(Blobby, what_is_wrong_leaves_the_rest) {
   glm::dvec3 p(0.3, 0.1, 0);
   const double a = sphere(std::hypot(0.3, 0.1)), b = sphere(std::hypot(0.7, 0.1));
