@@ -14,8 +14,9 @@ namespace {
 using slvm::Global;
 
 /// Cells of all lattices together, about; of one lattice a side, at most, and at least where it is curved.
+/// In a plane bilinear patch the area is linear: one cell is exact.
 constexpr size_t kCells = size_t{1} << 16;
-constexpr int kMostCells = 32, kCurvedCells = 4;
+constexpr int kMostCells = 32, kCurvedCells = 4, kRuledCells = 4;
 
 /// What shaders read of a surface, but for P and N, which are always there.
 constexpr Global kOfSurface[] = {Global::kP,    Global::kN,  Global::kNg, Global::kdPdu,
@@ -106,7 +107,8 @@ void AreaEmitter::sort_primitives() {
 void AreaEmitter::measure(const Primitive& p, Lattice& lattice) const {
   const auto side =
       static_cast<int>(std::sqrt(static_cast<double>(kCells) / static_cast<double>(primitives_.size())));
-  lattice.nu = lattice.nv = std::clamp(side, p.geometry->ruled() ? 1 : kCurvedCells, kMostCells);
+  const bool ruled = p.geometry->ruled();
+  lattice.nu = lattice.nv = std::clamp(side, ruled ? 1 : kCurvedCells, ruled ? kRuledCells : kMostCells);
   const std::vector<float> u = even(lattice.nu), v = even(lattice.nv);
   SurfaceLattice points;
   p.geometry->evaluate({u, v}, points);
