@@ -9,7 +9,7 @@ import re
 import tree
 
 SLVM_TOP = ["slvm/value", "slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/point_clouds",
-            "slvm/irradiance_cache", "slvm/photon_map", "slvm/renderer_services"]
+            "slvm/irradiance_cache", "slvm/photon_map", "slvm/light_emitter", "slvm/renderer_services"]
 ALLOWED = {
     "slvm/support": [],
     "slvm/format": ["slvm/support", "slvm/value"],
@@ -26,6 +26,7 @@ ALLOWED = {
     "slvm/point_clouds": ["slvm/format"],
     "slvm/irradiance_cache": [],
     "slvm/photon_map": [],
+    "slvm/light_emitter": ["slvm/format", "slvm/grid"],
     "slvm/renderer_services": ["slvm/grid", "slvm/textures", "slvm/rays", "slvm/subsurface", "slvm/point_clouds",
                                "slvm/irradiance_cache", "slvm/photon_map", "slvm/format", "slvm/support", "slvm/value"],
     "slvm/kernels": ["slvm/format", "slvm/wide", "slvm/support"] + SLVM_TOP,

@@ -189,16 +189,19 @@ struct Machine::Making {
   std::span<const std::string> may_vary;
   bool fold = true;
   const std::vector<std::string>* outputs = nullptr; ///< only these are wanted; null: all
+  std::shared_ptr<const LightEmitter> emitter = nullptr;
 };
 
 Result<std::unique_ptr<Instance>> Machine::instantiate(std::shared_ptr<const Shader> shader,
                                                        std::span<const ParamValue> given,
                                                        const InstanceOptions& options) const {
-  return make({std::move(shader), given, options.shader_to_current, options.may_vary, options_.specialise});
+  return make({std::move(shader), given, options.shader_to_current, options.may_vary, options_.specialise,
+               nullptr, options.emitter});
 }
 
 Result<std::unique_ptr<Instance>> Machine::unspecialised(const Instance& light) const {
-  return make({light.shader_, light.bound().given, light.shader_to_current_, {}, false});
+  return make(
+      {light.shader_, light.bound().given, light.shader_to_current_, {}, false, nullptr, light.emitter_});
 }
 
 std::unique_ptr<Instance> Machine::narrowed(const Instance& surface,
@@ -214,6 +217,7 @@ Result<std::unique_ptr<Instance>> Machine::make(const Making& making) const {
   instance->id_ = ++instances_;
   instance->shader_ = making.shader;
   instance->shader_to_current_ = making.shader_to_current;
+  instance->emitter_ = making.emitter;
   invert(making.shader_to_current, instance->current_to_shader_); // singular: all zeros
   const Program& all = instance->shader_->program();
   Result<BoundValues> values = bind_values(all, making.given, making.shader_to_current);

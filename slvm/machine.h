@@ -10,6 +10,7 @@
 
 #include "slvm/format/program.h"
 #include "slvm/grid.h"
+#include "slvm/light_emitter.h"
 #include "slvm/renderer_services.h"
 #include "slvm/support/result.h"
 #include "slvm/support/string_pool.h"
@@ -81,6 +82,8 @@ struct InstanceOptions {
   Matrix4 shader_to_current = {};
   /// Names of parameters that primitives may override by primitive variables: not folded in as constants.
   std::vector<std::string> may_vary = {};
+  /// The surface of an area light; null: the light stands where its space does.
+  std::shared_ptr<const LightEmitter> emitter = nullptr;
 };
 
 /// What a shader reads at points beside others: all that its derivatives depend on.
@@ -101,6 +104,9 @@ public:
   /// For lights: the names in __category, in order.
   std::span<const std::string> categories() const { return categories_; }
 
+  /// Of area lights; else null.
+  const LightEmitter* emitter() const { return emitter_.get(); }
+
   const BesideReads& reads_beside() const { return reads_beside_; }
 
   /// Differs between all instances of one machine.
@@ -117,6 +123,7 @@ private:
   std::unique_ptr<const Program> specialised_;
   Matrix4 shader_to_current_, current_to_shader_;
   std::vector<std::string> categories_;
+  std::shared_ptr<const LightEmitter> emitter_;
   BesideReads reads_beside_;
   std::unique_ptr<Bound> bound_;
 };

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,7 @@ struct TextureOptions {
   std::string_view filter; ///< "box", "disk", "gaussian", "triangle", "catmull-rom"; empty: the map's default
   float samples = 0;       ///< 0: the default of the kind of map
   float fill = 0;          ///< the value of channels the map lacks
+  float ignore_above = std::numeric_limits<float>::infinity(); ///< texels with greater values do not count
   bool between_levels = true; ///< interpolate between the two nearest levels of a mip-map
 };
 

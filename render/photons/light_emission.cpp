@@ -26,6 +26,10 @@ float stratified(size_t i, size_t all, uint64_t hash) {
 LightEmission::LightEmission(const slvm::Machine& machine, slvm::RendererServices& services,
                              const slvm::Instance& light, const SceneSphere& scene)
     : machine_(machine), services_(services), light_(light), scene_(scene) {
+  if (light.emitter()) {
+    problem_ = "it is an area light: it sends no photons";
+    return;
+  }
   find_place();
   if (kind_ == Kind::kNone) return;
   if (!check_fall_off())

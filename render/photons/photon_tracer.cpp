@@ -72,7 +72,8 @@ struct PhotonTracer::Hits {
   explicit Hits(size_t n) : pitch(n), distance(n) {
     for (auto* planes : {&P, &N, &Cs})
       planes->resize(3 * n);
-    for (std::vector<float>* plane : {&bias, &specular, &diffuse, &estimator, &model, &global, &caustic})
+    for (std::vector<float>* plane :
+         {&bias, &specular, &diffuse, &estimator, &ior, &model, &global, &caustic})
       plane->resize(n);
   }
   std::vector<slvm::RayOutput> outputs() {
@@ -93,6 +94,7 @@ struct PhotonTracer::Hits {
     add(From::kAttribute, "trace:maxspeculardepth", slvm::Type::kFloat, specular);
     add(From::kAttribute, "trace:maxdiffusedepth", slvm::Type::kFloat, diffuse);
     add(From::kAttribute, "photon:estimator", slvm::Type::kFloat, estimator);
+    add(From::kAttribute, "photon:ior", slvm::Type::kFloat, ior);
     add(From::kAttribute, "photon:shadingmodel", slvm::Type::kString, model);
     add(From::kAttribute, "photon:globalmap", slvm::Type::kString, global);
     add(From::kAttribute, "photon:causticmap", slvm::Type::kString, caustic);
@@ -102,7 +104,7 @@ struct PhotonTracer::Hits {
     return {planes[i], planes[pitch + i], planes[2 * pitch + i]};
   }
   size_t pitch;
-  std::vector<float> distance, P, N, Cs, bias, specular, diffuse, estimator, model, global, caustic;
+  std::vector<float> distance, P, N, Cs, bias, specular, diffuse, estimator, ior, model, global, caustic;
 };
 
 /// Photons that are traced together, and what they leave.
@@ -287,7 +289,7 @@ bool PhotonTracer::scatter(Flying& f, const Hits& hits, size_t i, Batch& batch) 
   if (model == "chrome") {
     f.direction = mirrored(f.direction, n);
   } else if (model != "transparent") {
-    const float dense = model == "water" ? kWater : kGlass;
+    const float dense = hits.ior[i] > 0 ? hits.ior[i] : model == "water" ? kWater : kGlass;
     Vec3 through = f.direction;
     const float part = reflected_part(f.direction, n, inside ? 1 / dense : dense, through);
     f.direction = upper_unit(random(3)) < part ? mirrored(f.direction, n) : through;

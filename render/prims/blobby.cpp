@@ -86,46 +86,90 @@ std::string BlobbyField::add_leaf(int code, std::span<const float> floats, Node&
   return {};
 }
 
-slvm::Result<BlobbyField> BlobbyField::make(std::span<const int> code, std::span<const float> floats,
-                                            const FindGround& find_ground) {
+namespace {
+/// Leaves that are plug-ins: of PRMan, and of AIR, which says how many operands follow.
+constexpr int kPlugIn = 1004, kAirPlugIn = 9000;
+} // namespace
+
+/// Fills in an operator of the code 0 to 7. The text of an error, or nothing.
+std::string BlobbyField::add_operator(int op, std::span<const int> operands, Node& node) const {
+  for (int o : operands)
+    if (o < 0 || static_cast<size_t>(o) >= nodes_.size())
+      return fmt::format("operator {} uses result {}, which does not precede it", op, o);
+  node.kind = static_cast<Kind>(static_cast<int>(Kind::kAdd) + op);
+  node.operands.assign(operands.begin(), operands.end());
+  return {};
+}
+
+/// What no operator uses.
+void BlobbyField::add_up_roots() {
+  std::vector<bool> used(nodes_.size());
+  for (const Node& n : nodes_)
+    for (int o : n.operands)
+      used[static_cast<size_t>(o)] = true;
+  Node sum;
+  sum.kind = Kind::kAdd;
+  for (size_t i = 0; i < used.size(); ++i)
+    if (!used[i]) sum.operands.push_back(static_cast<int>(i));
+  if (sum.operands.size() > 1) nodes_.push_back(std::move(sum));
+}
+
+BlobbyField BlobbyField::make(std::span<const int> code, std::span<const float> floats, const Warn& warn,
+                              const FindGround& find_ground) {
   BlobbyField out;
   size_t i = 0;
+  // The next n numbers of the code; fewer where it ends.
   auto take = [&](size_t n) {
-    std::span<const int> part =
-        code.subspan(std::min(i, code.size()), std::min(n, code.size() - std::min(i, code.size())));
+    const size_t from = std::min(i, code.size());
     i += n;
-    return part;
+    return code.subspan(from, std::min(n, code.size() - from));
+  };
+  auto stop = [&](const std::string& why) {
+    warn(fmt::format("{}; what follows is not read, what stands before is added up", why));
+    out.add_up_roots();
+    return std::move(out);
   };
   while (i < code.size()) {
-    int op = code[i++];
+    const int op = code[i++];
     Node node;
-    if (op >= 1000 && op <= 1003) {
-      auto operands = take(op == 1003 ? 2 : 1);
-      int index = operands.empty() ? -1 : operands.back();
-      if (i > code.size() || index < 0 || static_cast<size_t>(index) > floats.size())
-        return slvm::Error{fmt::format("a leaf of code {} has no index of its numbers", op)};
-      std::string wrong = out.add_leaf(op, floats.subspan(static_cast<size_t>(index)), node);
-      if (!wrong.empty()) return slvm::Error{wrong};
-      if (op == 1003 && find_ground) node.ground = find_ground(operands[0]);
-      ++out.leaf_count_;
-    } else if (op >= 0 && op <= 7) {
-      node.kind = static_cast<Kind>(static_cast<int>(Kind::kAdd) + op);
-      size_t count = op >= 6 ? 1 : 2;
-      if (op <= 3) {
-        auto n = take(1);
+    std::string wrong;
+    const bool plug_in = op == kPlugIn || op == kAirPlugIn;
+    if (plug_in || (op >= 1000 && op <= 1003)) {
+      size_t count = op == 1003 ? 2 : 1;
+      if (op == kPlugIn) count = 5; // name, numbers, their index, strings, their index
+      if (op == kAirPlugIn) {
+        const auto n = take(1);
         count = n.empty() || n[0] < 1 ? 0 : static_cast<size_t>(n[0]);
       }
-      auto operands = take(count);
+      const auto operands = take(count);
       if (count == 0 || operands.size() != count)
-        return slvm::Error{fmt::format("operator {} ends before its operands", op)};
-      for (int o : operands)
-        if (o < 0 || static_cast<size_t>(o) >= out.nodes_.size())
-          return slvm::Error{fmt::format("operator {} uses result {}, which does not precede it", op, o)};
-      node.operands.assign(operands.begin(), operands.end());
-    } else if (op == 1004) {
-      return slvm::Error{"a leaf of code 1004 is a plug-in, and these are not supported"};
+        return stop(fmt::format("a leaf of code {} ends early", op));
+      const int index = operands.back();
+      if (plug_in)
+        wrong = fmt::format("a leaf of code {} is a plug-in, and these are not supported", op);
+      else if (index < 0 || static_cast<size_t>(index) > floats.size())
+        wrong = fmt::format("a leaf of code {} has its numbers from {} on, and there are {}", op, index,
+                            floats.size());
+      else
+        wrong = out.add_leaf(op, floats.subspan(static_cast<size_t>(index)), node);
+      if (wrong.empty() && op == 1003 && find_ground) node.ground = find_ground(operands[0]);
+      ++out.leaf_count_;
+    } else if (op >= 0 && op <= 7) {
+      size_t count = op >= 6 ? 1 : 2;
+      if (op <= 3) {
+        const auto n = take(1);
+        count = n.empty() || n[0] < 1 ? 0 : static_cast<size_t>(n[0]);
+      }
+      const auto operands = take(count);
+      if (count == 0 || operands.size() != count)
+        return stop(fmt::format("operator {} ends before its operands", op));
+      wrong = out.add_operator(op, operands, node);
     } else {
-      return slvm::Error{fmt::format("unknown code {}", op)};
+      return stop(fmt::format("unknown code {}", op));
+    }
+    if (!wrong.empty()) {
+      warn(fmt::format("{}; its field is 0", wrong));
+      node = {};
     }
     out.nodes_.push_back(std::move(node));
   }
@@ -303,6 +347,12 @@ void BlobbyField::shares(Vec3d p, std::span<double> out) const {
   }
   for (double& s : out)
     s = sum > 0 ? s / sum : 1 / static_cast<double>(out.size());
+}
+
+Vec3d BlobbyField::in_leaf(size_t leaf, Vec3d p) const {
+  for (const Node& n : nodes_)
+    if (n.operands.empty() && leaf-- == 0) return transform(n.to_leaf, p);
+  return p;
 }
 
 Vec3d BlobbyField::outwards(Vec3d p, double step) const {

@@ -19,9 +19,12 @@ public:
 
   /// The ground of the string with this number; null: there is none, and nothing repels.
   using FindGround = std::function<std::shared_ptr<const BlobbyGround>(int)>;
-  /// From the arguments of the request. The error says what is wrong with the code.
-  static slvm::Result<BlobbyField> make(std::span<const int> code, std::span<const float> floats,
-                                        const FindGround& find_ground = {});
+  /// Told what is wrong, and what is done without it.
+  using Warn = std::function<void(const std::string&)>;
+  /// From the arguments of the request. Leaves that cannot be have the field 0; behind a code that is not
+  /// known nothing can be read, and what stands before is added up.
+  static BlobbyField make(std::span<const int> code, std::span<const float> floats, const Warn& warn,
+                          const FindGround& find_ground = {});
 
   double at(glm::dvec3 p) const;
   /// A field that has the same values in `box`, without the leaves that do not reach it: cheaper where there
@@ -34,6 +37,9 @@ public:
   /// Unit vector to where the field falls fastest.
   glm::dvec3 outwards(glm::dvec3 p, double step) const;
   size_t leaves() const { return leaf_count_; }
+  /// A point as leaf `leaf` has it: in the space where it is a unit sphere or a plain segment. Constants,
+  /// grounds and what cannot be have none of their own.
+  glm::dvec3 in_leaf(size_t leaf, glm::dvec3 p) const;
   /// Around all leaves but constants and grounds, which are everywhere.
   Box bound() const { return bound_; }
   /// The smallest radius of a leaf.
@@ -66,6 +72,8 @@ private:
     std::vector<int> operands;
   };
   std::string add_leaf(int code, std::span<const float> floats, Node& node);
+  std::string add_operator(int op, std::span<const int> operands, Node& node) const;
+  void add_up_roots();
   static double leaf(const Node& node, glm::dvec3 p);
   int near_operator(const Node& node, const std::vector<int>& kept);
   /// The fields of all nodes.

@@ -89,6 +89,8 @@ class NetMaker {
 public:
   NetMaker(const BlobbyField& field, float wanted, std::span<const TypedParam> vars)
       : field_(field), leaf_values_(vars.size()), shares_(vars.empty() ? 0 : field.leaves()) {
+    for (const TypedParam& var : vars)
+      places_.push_back(var.declaration.mpoint);
     for (size_t v = 0; v < vars.size(); ++v)
       for (size_t i = 0; i < field.leaves() && interpolates(vars[v].declaration.storage); ++i)
         append_value(vars[v], i, leaf_values_[v]);
@@ -219,6 +221,10 @@ private:
   void mix(Vec3d p) {
     field_.shares(p, shares_);
     for (size_t v = 0; v < leaf_values_.size(); ++v) {
+      if (places_[v]) {
+        place(v, p);
+        continue;
+      }
       size_t width = leaf_values_[v].size() / shares_.size();
       for (size_t c = 0; c < width; ++c) {
         double sum = 0;
@@ -227,6 +233,19 @@ private:
         net_.values[v].push_back(static_cast<float>(sum));
       }
     }
+  }
+
+  /// Where the point would be if the leaves stood where these matrices put them.
+  void place(size_t var, Vec3d p) {
+    Vec3d sum(0.0);
+    for (size_t i = 0; i < shares_.size(); ++i) {
+      if (shares_[i] == 0) continue;
+      Matrix4 m;
+      std::copy_n(leaf_values_[var].begin() + static_cast<std::ptrdiff_t>(16 * i), 16, m.m.begin());
+      sum += shares_[i] * Vec3d(transform_point(m, Vec3(field_.in_leaf(i, p))));
+    }
+    for (int c = 0; c < 3; ++c)
+      net_.values[var].push_back(static_cast<float>(sum[c]));
   }
 
   /// The quadrilateral across the edge from `p` along `axis`; its outside is where the field is low.
@@ -248,6 +267,7 @@ private:
 
   const BlobbyField& field_;
   std::vector<std::vector<float>> leaf_values_; ///< of each variable that interpolates, leaf by leaf
+  std::vector<bool> places_;                    ///< mpoints among the variables
   std::vector<double> shares_;                  ///< of the leaves in a point; they add up to 1
   double cell_ = 1;
   Vec3d origin_{0.0};

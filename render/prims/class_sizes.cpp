@@ -49,9 +49,11 @@ SizesOfRequest loop_corners(std::span<const int> loops, int argument, int fewest
   return sized(1, corners, corners, corners);
 }
 
-/// Faces that share vertices: their numbers are argument `i`, the counts of their loops stand before.
-SizesOfRequest shared_vertices(const RequestCall& call, int i, size_t faces, int fewest = 3) {
-  SizesOfRequest loops = loop_corners(call.integers(i - 1), i - 1, fewest);
+/// Faces that share vertices: their numbers are argument `i`, the counts of their loops stand before. Single
+/// faces may be wrong: they are left out when the mesh is made, as are the points and edges that exporters
+/// write among them.
+SizesOfRequest shared_vertices(const RequestCall& call, int i, size_t faces) {
+  SizesOfRequest loops = loop_corners(call.integers(i - 1), i - 1, 0);
   if (!loops.ok()) return loops;
   size_t corners = loops.sizes.facevarying;
   std::span<const int> vertices = call.integers(i);
@@ -59,13 +61,11 @@ SizesOfRequest shared_vertices(const RequestCall& call, int i, size_t faces, int
     return wrong(i,
                  fmt::format("'nvertices' asks for {} vertex numbers, found {}", corners, vertices.size()));
   int last = -1;
-  for (int v : vertices) {
-    if (v < 0) return wrong(i, fmt::format("{} is not a vertex number; these start at 0", v));
+  for (int v : vertices)
     last = std::max(last, v);
-  }
-  // Files often carry more points than the faces use: P decides, if it has enough.
+  // Files often carry more points than the faces use: P decides.
   size_t points = static_cast<size_t>(last) + 1;
-  if (const Param* p = call.find_param("P")) points = std::max(points, p->numbers.size() / 3);
+  if (const Param* p = call.find_param("P"); p && p->numbers.size() >= 3) points = p->numbers.size() / 3;
   return sized(faces, points, points, corners);
 }
 
@@ -128,8 +128,7 @@ SizesOfRequest curves(const RequestCall& call, BasisSteps steps) {
   layout.basis.step = steps.v;
   size_t points = 0, corners = 0;
   for (int n : call.integers(1)) {
-    if (n < layout.fewest())
-      return wrong(1, fmt::format("a {} curve has at least {} points, found {}", type, layout.fewest(), n));
+    if (n < 0) return wrong(1, fmt::format("a curve has {} points", n));
     points += static_cast<size_t>(n);
     corners += static_cast<size_t>(layout.varying(n));
   }
@@ -167,8 +166,7 @@ SizesOfRequest class_sizes(const RequestCall& call, BasisSteps steps, std::optio
   case kGeneralPolygon:
     if (call.integers(0).empty()) return wrong(0, "a polygon has at least one loop of vertices");
     return loop_corners(call.integers(0), 0);
-  // Exporters write points and edges among the faces: they are left out when the mesh is made.
-  case kPointsPolygons: return shared_vertices(call, 1, call.integers(0).size(), 0);
+  case kPointsPolygons: return shared_vertices(call, 1, call.integers(0).size());
   case kPointsGeneralPolygons: return general_polygons(call);
   case kSubdivisionMesh: return shared_vertices(call, 2, call.integers(1).size());
   case kPatch:

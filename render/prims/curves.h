@@ -24,8 +24,15 @@ struct CurveLayout {
   int step() const { return cubic ? std::max(basis.step, 1) : 1; }
   int fewest() const { return cubic ? 4 : 2; }
   /// Of a curve with `points` points.
-  int segments(int points) const { return periodic ? points / step() : (points - fewest()) / step() + 1; }
-  int varying(int points) const { return segments(points) + (periodic ? 0 : 1); }
+  int segments(int points) const {
+    if (points < fewest()) return 0;
+    return periodic ? points / step() : (points - fewest()) / step() + 1;
+  }
+  /// Curves with too few points have an end for each of them, two at most: that is what the formula of the
+  /// RISpec gives in whole numbers.
+  int varying(int points) const {
+    return points < fewest() ? std::min(points, 2) : segments(points) + (periodic ? 0 : 1);
+  }
 };
 
 /// Appends a primitive for each segment of each curve. Widths come from "width" or "constantwidth", else they

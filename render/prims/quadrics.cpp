@@ -244,55 +244,55 @@ private:
 };
 
 template <class Profile> GeometryResult finish(const Profile& profile, float thetamax) {
-  if (thetamax == 0) return slvm::Error{"thetamax is zero: there is no surface"};
+  if (thetamax == 0) return slvm::Error{"thetamax is zero"};
   return std::shared_ptr<const Geometry>(std::make_shared<Quadric<Profile>>(profile, thetamax));
 }
 
 } // namespace
 
 GeometryResult make_sphere(float radius, float zmin, float zmax, float thetamax) {
-  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
+  if (radius == 0) return slvm::Error{"the radius is zero"};
   float size = std::abs(radius);
   float low = std::asin(std::clamp(zmin / size, -1.0f, 1.0f)),
         high = std::asin(std::clamp(zmax / size, -1.0f, 1.0f));
-  if (low == high) return slvm::Error{"zmin equals zmax: there is no surface"};
+  if (low == high) return slvm::Error{"zmin equals zmax"};
   // A negative radius mirrors the profile: the same sphere, inside out.
   if (radius < 0) return finish(SphereProfile{radius, -low, -high}, thetamax);
   return finish(SphereProfile{radius, low, high}, thetamax);
 }
 
 GeometryResult make_cone(float height, float radius, float thetamax) {
-  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
+  if (radius == 0) return slvm::Error{"the radius is zero"};
   return finish(LineProfile{{radius, 0, 0}, {0, 0, height}}, thetamax);
 }
 
 GeometryResult make_cylinder(float radius, float zmin, float zmax, float thetamax) {
-  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
-  if (zmin == zmax) return slvm::Error{"zmin equals zmax: there is no surface"};
+  if (radius == 0) return slvm::Error{"the radius is zero"};
+  if (zmin == zmax) return slvm::Error{"zmin equals zmax"};
   return finish(LineProfile{{radius, 0, zmin}, {radius, 0, zmax}}, thetamax);
 }
 
 GeometryResult make_hyperboloid(Vec3 point1, Vec3 point2, float thetamax) {
-  if (point1 == point2) return slvm::Error{"its two points are the same: there is no surface"};
+  if (point1 == point2) return slvm::Error{"its two points are the same"};
   return finish(LineProfile{point1, point2}, thetamax);
 }
 
 GeometryResult make_paraboloid(float rmax, float zmin, float zmax, float thetamax) {
-  if (rmax == 0) return slvm::Error{"rmax is zero: there is no surface"};
+  if (rmax == 0) return slvm::Error{"rmax is zero"};
   if (zmax == 0) return slvm::Error{"zmax is zero; a paraboloid has its apex there"};
-  if (zmin == zmax) return slvm::Error{"zmin equals zmax: there is no surface"};
-  if (zmin / zmax < 0) return slvm::Error{"zmin and zmax lie on two sides of the apex"};
+  if (zmin / zmax < 0) zmin = 0; // beyond the apex there is nothing
+  if (zmin == zmax) return slvm::Error{"zmin equals zmax"};
   return finish(ParaboloidProfile{rmax, zmin, zmax}, thetamax);
 }
 
 GeometryResult make_disk(float height, float radius, float thetamax) {
-  if (radius == 0) return slvm::Error{"the radius is zero: there is no surface"};
+  if (radius == 0) return slvm::Error{"the radius is zero"};
   return finish(LineProfile{{radius, 0, height}, {0, 0, height}}, thetamax);
 }
 
 GeometryResult make_torus(float major, float minor, float phimin, float phimax, float thetamax) {
-  if (minor == 0) return slvm::Error{"the minor radius is zero: there is no surface"};
-  if (phimin == phimax) return slvm::Error{"phimin equals phimax: there is no surface"};
+  if (minor == 0) return slvm::Error{"the minor radius is zero"};
+  if (phimin == phimax) return slvm::Error{"phimin equals phimax"};
   return finish(TorusProfile{major, minor, radians(phimin), radians(phimax)}, thetamax);
 }
 

@@ -12,7 +12,7 @@ namespace render {
 
 using GeometryResult = slvm::Result<std::shared_ptr<const Geometry>>;
 
-/// The error of each says which argument is impossible, e.g. "the radius is zero".
+/// The error of each says why there is no surface, e.g. "the radius is zero".
 GeometryResult make_sphere(float radius, float zmin, float zmax, float thetamax);
 GeometryResult make_cone(float height, float radius, float thetamax);
 GeometryResult make_cylinder(float radius, float zmin, float zmax, float thetamax);

@@ -1,6 +1,8 @@
 // Loading and binding of a scene's shaders.
 #include "render/shading/bound_shaders.h"
 
+#include "render/shading/area_emitter.h"
+
 #include <fmt/format.h>
 
 #include <set>
@@ -80,6 +82,7 @@ private:
                                        const std::set<std::string>& may_vary);
   bool param_value(const ShaderRequest& request, const slvm::Shader& shader, const ShaderParam& p,
                    slvm::ParamValue& out);
+  std::shared_ptr<const slvm::LightEmitter> emitter_of(const ShaderRequest& request);
   /// For what old files do and other renderers put up with.
   void warn(slvm::SourceRange where, const ShaderRequest& request, std::string_view text) {
     if (!quiet_)
@@ -217,13 +220,24 @@ std::unique_ptr<slvm::Instance> BoundShaders::Binder::make(const ShaderRequest& 
   std::vector<slvm::ParamValue> values;
   for (const ShaderParam& p : request.params)
     if (slvm::ParamValue value; param_value(request, *shader, p, value)) values.push_back(std::move(value));
-  auto instance = out_.machine_.instantiate(shader, values,
-                                            {request.shader_to_camera, {may_vary.begin(), may_vary.end()}});
+  slvm::InstanceOptions options{request.shader_to_camera, {may_vary.begin(), may_vary.end()}};
+  if (request.kind == RequestId::kAreaLightSource) options.emitter = emitter_of(request);
+  auto instance = out_.machine_.instantiate(shader, values, options);
   if (!instance) {
     error(request.where, request, fmt::format("shader \"{}\": {}", request.name, instance.error()));
     return nullptr;
   }
   return std::move(*instance);
+}
+
+std::shared_ptr<const slvm::LightEmitter> BoundShaders::Binder::emitter_of(const ShaderRequest& request) {
+  auto it = out_.emitters_.find(&request);
+  if (it != out_.emitters_.end()) return it->second;
+  warn(request.where, request,
+       fmt::format("\"{}\" has no surface: no primitive follows, or none with an area; it shines from the "
+                   "origin of its space",
+                   request.name));
+  return nullptr;
 }
 
 /// A value with the type the scene declares or, if it does not, the shader's own. False: unusable, and
@@ -276,7 +290,35 @@ BoundShaders::BoundShaders(const Scene& scene, const slvm::Machine& machine, Sha
   Binder(*this).bind(scene.options.imager);
 }
 
+/// The surfaces of area lights. All of a light are there when the first of them is: those of procedurals are
+/// made before.
+void BoundShaders::find_emitters(std::span<const Primitive> primitives) {
+  std::vector<const ShaderRequest*> order;
+  std::unordered_map<const ShaderRequest*, std::vector<Primitive>> surfaces;
+  for (const Primitive& p : primitives)
+    if (const ShaderRequest* light = p.attributes().area_light.get()) {
+      std::vector<Primitive>& surface = surfaces[light];
+      if (surface.empty()) order.push_back(light);
+      surface.push_back(p);
+    }
+  DiceContext context;
+  context.strings = &machine_.strings();
+  context.time = options_.shutter_open + options_.shutter_offset;
+  context.dtime = options_.shutter_close - options_.shutter_open;
+  for (const ShaderRequest* light : order) {
+    if (emitters_.contains(light)) continue;
+    std::vector<Primitive>& surface = surfaces[light];
+    if (std::any_of(surface.begin(), surface.end(),
+                    [](const Primitive& p) { return p.attributes().displacement != nullptr; }))
+      diagnostics_.warning(light->where, "rib-shader",
+                           "AreaLightSource: its surface sends light from where it is without displacement");
+    auto emitter = std::make_shared<const AreaEmitter>(std::move(surface), light->samples, context);
+    if (emitter->area() > 0) emitters_[light] = std::move(emitter);
+  }
+}
+
 void BoundShaders::add(std::span<const Primitive> primitives) {
+  find_emitters(primitives);
   Binder(*this).bind_all(primitives);
 }
 

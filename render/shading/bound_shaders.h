@@ -65,6 +65,7 @@ public:
 
 private:
   class Binder;
+  void find_emitters(std::span<const Primitive> primitives);
   /// A request bound for primitives whose variables may replace these parameters. Where later ones have more,
   /// it is bound again; pictures do not depend on which is used.
   struct BoundRequest {
@@ -79,6 +80,7 @@ private:
   mutable std::shared_mutex mutex_; ///< of the maps; nothing is ever taken out of the lists
   std::unordered_map<const Attributes*, std::vector<std::unique_ptr<const BoundAttributes>>> attributes_;
   std::unordered_map<const ShaderRequest*, std::vector<BoundRequest>> instances_;
+  std::unordered_map<const ShaderRequest*, std::shared_ptr<const slvm::LightEmitter>> emitters_;
 };
 
 } // namespace render

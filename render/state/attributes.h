@@ -56,6 +56,7 @@ struct Attributes {
   std::shared_ptr<const ShaderRequest> surface, displacement, atmosphere, interior, exterior;
   /// Lights that are on, in order of declaration.
   std::vector<std::shared_ptr<const ShaderRequest>> lights;
+  std::shared_ptr<const ShaderRequest> area_light; ///< whose surface primitives are; null: of none
 
   /// Farthest a displacement shader moves a point, and the space that is measured in.
   float displacement_sphere = 0;

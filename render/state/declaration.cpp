@@ -77,6 +77,9 @@ bool set_type(std::string_view word, Declaration& d) {
   } else if (word == "hpoint") {
     d.type = Type::kPoint;
     d.hpoint = true;
+  } else if (word == "mpoint") {
+    d.type = Type::kPoint;
+    d.mpoint = true;
   } else {
     for (Type t : {Type::kString, Type::kColor, Type::kPoint, Type::kVector, Type::kNormal, Type::kMatrix})
       if (slvm::type_name(t) == word) {
@@ -203,6 +206,8 @@ slvm::Result<std::pair<std::string, slvm::Value>> loose_value(const Param& param
     value.elements = count == 1 ? 0 : static_cast<uint32_t>(count);
     return std::pair{param.token, value};
   }
+  if (declared->mpoint)
+    return slvm::Error{fmt::format("\"{}\" is an mpoint: only a Blobby has these", declared->name)};
   value.type = declared->type;
   value.elements = declared->elements;
   value.integers = declared->integer;

@@ -24,10 +24,12 @@ struct Declaration {
   uint32_t elements = 0; ///< array length; 0: not an array
   bool integer = false;  ///< written as integer; a float to shaders
   bool hpoint = false;   ///< four numbers each in the file, divided by the fourth
+  bool mpoint = false;   ///< a matrix each: where a leaf of a Blobby is in another pose; a point to shaders
 
   /// Numbers (or strings) of one value in the file.
   int width() const {
-    return (hpoint ? 4 : slvm::components(type)) * static_cast<int>(elements ? elements : 1);
+    const int numbers = mpoint ? 16 : hpoint ? 4 : slvm::components(type);
+    return numbers * static_cast<int>(elements ? elements : 1);
   }
 };
 

@@ -136,8 +136,46 @@ void Interpreter::finish() {
   if (in_world_) diagnostics_.error(blocks_.front().where, "nothing is rendered: WorldEnd is missing");
 }
 
+namespace {
+
+/// Requests of later releases than the language here, and what the picture is without them.
+std::string_view later_request(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> kLater[] = {
+      {"ShaderLayer", "shaders are not put together of layers; the last Surface, Displacement ... counts"},
+      {"ConnectShaderLayers",
+       "shaders are not put together of layers; the last Surface, Displacement ... counts"},
+      {"Layer", "shaders are not put together of layers; the last Surface, Displacement ... counts"},
+      {"Shader", "shaders that others call as objects are not known"},
+      {"VPSurface", "volumes have the shaders of Interior, Exterior and Atmosphere"},
+      {"VPInterior", "volumes have the shaders of Interior, Exterior and Atmosphere"},
+      {"VPAtmosphere", "volumes have the shaders of Interior, Exterior and Atmosphere"},
+      {"Volume", "there are no volumes as primitives"},
+      {"Resource", "nothing is kept or brought back"},
+      {"ResourceBegin", "nothing is kept or brought back"},
+      {"ResourceEnd", "nothing is kept or brought back"},
+      {"HierarchicalSubdivisionMesh", "the surface is not drawn; a SubdivisionMesh would be"},
+      {"EditBegin", "pictures are rendered once"},
+      {"EditEnd", "pictures are rendered once"},
+      {"Camera", "there is one camera, that of the transformation before WorldBegin"},
+      {"Bxdf", "materials are Surface shaders"},
+      {"Pattern", "materials are Surface shaders"},
+      {"Integrator", "light is what shaders compute"},
+      {"MakeTextureV", "a texture is made by MakeTexture"},
+      {"System", "scenes run no programs by themselves"}};
+  for (const auto& [known, text] : kLater)
+    if (known == name) return text;
+  return {};
+}
+
+} // namespace
+
 void Interpreter::unknown_request(std::string_view name, std::string_view suggestion,
                                   slvm::SourceRange where) {
+  if (const std::string_view instead = later_request(name); !instead.empty()) {
+    warn_once(fmt::format("unknown {}", name), where, "rib-unsupported",
+              fmt::format("{} is of later releases and is skipped: {}", name, instead));
+    return;
+  }
   std::string hint = suggestion.empty() ? "" : fmt::format("; did you mean {}?", suggestion);
   warn_once(fmt::format("unknown {}", name), where, "rib-unknown",
             fmt::format("unknown request {}{}", name, hint));

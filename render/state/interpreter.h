@@ -21,6 +21,7 @@
 namespace render {
 
 class BlobbyGround;
+struct LeftOut;
 struct SubdivisionMesh;
 
 /// Requests that change the current transformation.
@@ -286,7 +287,10 @@ private:
   void trim_curve(const RequestCall&);
   /// Types and checks of the variables of a primitive; those with errors are left out.
   std::vector<TypedParam> primitive_vars(const RequestCall&, const ClassSizes&);
-  bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P);
+  /// `all_finite`: else points that are not finite may be among them.
+  bool take_positions(const RequestCall&, std::vector<TypedParam>& vars, std::vector<Vec3>& P,
+                      bool all_finite = true);
+  void say_left_out(const RequestCall&, int argument, std::string_view element, const LeftOut&);
   std::shared_ptr<const PrimitiveState> primitive_state();
   /// Farthest a displacement moves a point, in camera space.
   float displacement_bound_of(const Attributes& attributes, const Matrix4& object_to_camera) const;
@@ -294,7 +298,7 @@ private:
 
   // procedurals
   void procedural(const RequestCall&);
-  void complete_solids();
+  void complete_early();
   void run(const Procedural&, float area);
   void run_program(const Procedural&, float area);
   void run_plug_in(const Procedural&, float area);
@@ -302,6 +306,7 @@ private:
   Procedural* keep_procedural(const RequestCall&, std::span<const float> bound, slvm::SourceRange where);
   slvm::Result<std::unique_ptr<Program>> start_program(const Procedural&);
   void report(const Procedural&, std::string_view text);
+  bool never_ends(const Procedural&, const std::string& what);
 
   slvm::SourceManager& sources_;
   slvm::Diagnostics& diagnostics_;
@@ -329,7 +334,10 @@ private:
   Scene scene_;
   /// By name; null: it failed. What procedurals hold of a plug-in is gone before the plug-in is.
   std::map<std::string, std::shared_ptr<PlugIn>> plug_ins_;
-  size_t procedurals_ = 0;                                   ///< seen so far in the world block
+  size_t procedurals_ = 0;                   ///< seen so far in the world block
+  size_t repetitions_ = 0;                   ///< of them, carried out that came out of the same
+  std::set<std::string> endless_;            ///< those that do not end by themselves
+  std::shared_ptr<const Ancestry> ancestry_; ///< of what the procedural being carried out makes
   std::map<std::string, std::unique_ptr<Program>> programs_; ///< by command; null: it failed
   int procedural_depth_ = 0; ///< of the procedural being carried out; 0: none is
   bool in_world_ = false;

@@ -20,8 +20,14 @@ void Interpreter::attribute(const RequestCall& call) {
     if (!named) continue;
     edit().named[category + ":" + named->first] = named->second;
     if (auto problem = set_ray_attribute(edit().rays, category, named->first, named->second);
-        problem && !problem->empty())
-      error_at(p.where, call, fmt::format("\"{}\" {}", named->first, *problem));
+        problem && !problem->empty()) {
+      const std::string text = fmt::format("\"{}\" {}", named->first, *problem);
+      if (named->first == "shadingmodel") // each release has other ones
+        warn_once(fmt::format("shadingmodel {}", fmt::join(named->second.strings, " ")), p.where, "rib",
+                  fmt::format("Attribute: {}", text));
+      else
+        error_at(p.where, call, text);
+    }
     attribute_parameter(call, p, named->first, named->second);
   }
 }
@@ -142,10 +148,31 @@ void Interpreter::shader(const RequestCall& call) {
   }
 }
 
+namespace {
+
+/// As BMRT and its kin call it; "samples" is the younger name.
+uint32_t area_light_samples(const Attributes& attributes) {
+  constexpr float kMost = 65536;
+  for (const char* name : {"light:nsamples", "light:samples"})
+    if (auto it = attributes.named.find(name); it != attributes.named.end())
+      return static_cast<uint32_t>(std::clamp(it->second.numbers[0], 1.0f, kMost));
+  return ShaderRequest().samples;
+}
+
+} // namespace
+
 void Interpreter::light_source(const RequestCall& call) {
-  if (call.text(0) == "null") return;
+  const bool area = call.id == RequestId::kAreaLightSource;
+  if (call.text(0) == "null") {
+    if (area) edit().area_light = nullptr;
+    return;
+  }
   auto light = make_shader(call);
   light->handle = call.text(1);
+  if (area) {
+    light->samples = area_light_samples(*attributes_);
+    edit().area_light = light;
+  }
   // A handle that is used again names the new light from here on; the old one goes on shining.
   lights_[light->handle] = light;
   edit().lights.push_back(light);

@@ -108,7 +108,7 @@ void Interpreter::world_end(const RequestCall& call) {
   scene_.spaces = spaces_;
   in_motion_.reset();
   if (render_world_ && !stopped_) {
-    complete_solids();
+    complete_early();
     // What procedurals make goes to a scene of its own: this one is being read while they are at it.
     Scene scene = std::exchange(scene_, {});
     scene_.options = scene.options;
@@ -117,7 +117,8 @@ void Interpreter::world_end(const RequestCall& call) {
   }
   in_world_ = false;
   scene_ = {};
-  procedurals_ = 0;
+  procedurals_ = repetitions_ = 0;
+  endless_.clear();
 }
 
 void Interpreter::attribute_begin(const RequestCall& call) {

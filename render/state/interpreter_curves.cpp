@@ -2,6 +2,7 @@
 #include "render/prims/blobby.h"
 #include "render/prims/curves.h"
 #include "render/state/interpreter.h"
+#include "render/state/left_out.h"
 #include "render/texture/find_image.h"
 
 #include <fmt/format.h>
@@ -27,10 +28,11 @@ void Interpreter::curves(const RequestCall& call) {
   layout.cubic = call.text(0) == "cubic";
   layout.periodic = call.text(2) == "periodic";
   layout.basis = attributes_->vbasis;
-  std::span<const int> counts = call.integers(1);
+  std::vector<int> counts(call.integers(1).begin(), call.integers(1).end());
   std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
-  if (!take_positions(call, vars, P)) return;
+  if (!take_positions(call, vars, P, false)) return;
+  say_left_out(call, 1, "curve", leave_out_bad_curves(layout, counts, P, vars));
   auto state = primitive_state();
   add_curves(layout, counts, std::move(P), std::move(vars), eye_in_object(options_, *state), state,
              scene_.primitives);
@@ -86,13 +88,11 @@ float micropolygon_in_object(const Box& bound, const PrimitiveState& state, cons
 } // namespace
 
 void Interpreter::blobby(const RequestCall& call) {
-  auto field = BlobbyField::make(call.integers(1), call.numbers(2),
-                                 [&](int string) { return blobby_ground(call, string); });
-  if (!field) {
-    error(call, field.error());
-    return;
-  }
-  size_t leaves = field->leaves();
+  const auto field = BlobbyField::make(
+      call.integers(1), call.numbers(2),
+      [&](const std::string& text) { warn_at(call.arguments[1].where, call, text); },
+      [&](int string) { return blobby_ground(call, string); });
+  size_t leaves = field.leaves();
   if (call.integer(0) < 0 || static_cast<size_t>(call.integer(0)) != leaves)
     warn(call,
          fmt::format("'nleaf' is {}, but the code has {} leaves, and that counts", call.integer(0), leaves));
@@ -100,8 +100,8 @@ void Interpreter::blobby(const RequestCall& call) {
   auto state = primitive_state();
   // Quadrilaterals of two micropolygons a side, with smooth normals, show no corners.
   float wanted =
-      field->bound().empty() ? 0 : 2 * micropolygon_in_object(field->bound(), *state, scene_.options);
-  add_blobby(*field, wanted, vars, state, scene_.primitives);
+      field.bound().empty() ? 0 : 2 * micropolygon_in_object(field.bound(), *state, scene_.options);
+  add_blobby(field, wanted, vars, state, scene_.primitives);
 }
 
 } // namespace render

@@ -6,6 +6,7 @@
 #include "render/prims/quadrics.h"
 #include "render/prims/teapot.h"
 #include "render/prims/typed_vars.h"
+#include "render/state/left_out.h"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,12 @@ std::vector<TypedParam> Interpreter::primitive_vars(const RequestCall& call, con
       continue;
     }
     const Declaration& d = *declared;
+    if (d.mpoint && (call.id != RequestId::kBlobby || !interpolates(d.storage) || d.elements)) {
+      error_at(
+          p.where, call,
+          fmt::format("\"{}\" is an mpoint: a Blobby has these, one vertex value for each leaf", d.name));
+      continue;
+    }
     bool text = d.type == slvm::Type::kString;
     size_t have = text ? p.strings.size() : p.numbers.size();
     size_t want = sizes.of(d.storage) * static_cast<size_t>(d.width());
@@ -97,8 +104,8 @@ std::vector<TypedParam> Interpreter::primitive_vars(const RequestCall& call, con
 }
 
 /// Takes P (or Pw) out of the variables. False, with a message: there is none.
-bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam>& vars,
-                                 std::vector<Vec3>& P) {
+bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam>& vars, std::vector<Vec3>& P,
+                                 bool all_finite) {
   for (size_t i = 0; i < vars.size(); ++i) {
     const Declaration& d = vars[i].declaration;
     bool weighted = d.name == "Pw" && d.hpoint;
@@ -110,7 +117,7 @@ bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam
     }
     vars.erase(vars.begin() + static_cast<std::ptrdiff_t>(i));
     for (Vec3 p : P)
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      if (all_finite && (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))) {
         error(call, "a point is not finite; the primitive is skipped");
         return false;
       }
@@ -120,6 +127,17 @@ bool Interpreter::take_positions(const RequestCall& call, std::vector<TypedParam
   if (!call.find_param("P") && !call.find_param("Pw") && !call.find_param("Pz"))
     error(call, "\"P\" is missing", RiError::kMissingData);
   return false;
+}
+
+/// `element`: "face", "curve".
+void Interpreter::say_left_out(const RequestCall& call, int argument, std::string_view element,
+                               const LeftOut& out) {
+  if (out.count == 0) return;
+  warn_at(call.arguments[static_cast<size_t>(argument)].where, call,
+          fmt::format("{} of {} {}s cannot be drawn and {} left out; {} {}, counted from 0, {}", out.count,
+                      out.all, element, out.count == 1 ? "is" : "are",
+                      out.count == 1 ? element : fmt::format("the first, {}", element), out.first,
+                      out.first_why));
 }
 
 float Interpreter::displacement_bound_of(const Attributes& a, const Matrix4& object_to_camera) const {
@@ -169,8 +187,10 @@ void Interpreter::add_patch(std::shared_ptr<const Geometry> geometry, std::span<
 
 void Interpreter::quadric(const RequestCall& call) {
   auto geometry = make_quadric(call);
-  if (!geometry) {
-    error(call, geometry.error());
+  if (!geometry) { // what shrinks to nothing in an animation, and what programs write
+    warn_once(fmt::format("empty {} {}", call.info().name, geometry.error()), call.where, "rib",
+              fmt::format("{}: {}; nothing is drawn, here and wherever it is so", call.info().name,
+                          geometry.error()));
     return;
   }
   std::vector<TypedParam> vars = primitive_vars(call, {});

@@ -175,6 +175,16 @@ void Interpreter::display(const RequestCall& call) {
   }
   for (const Param& p : call.params)
     if (auto named = named_value_of(call, "", p)) d.params[named->first] = named->second;
+  if (d.type == "deepshad" || d.type == "tsm") {
+    // A map of one depth is looked up in the same way.
+    warn_once(
+        "deepshad", call.where, "rib-unsupported",
+        fmt::format("Display \"{}\": maps of more than one depth are not made; a shadow map of the first "
+                    "opaque surfaces is, and what is transparent casts no shadow",
+                    d.type));
+    d.type = "shadow";
+    d.mode = "z";
+  }
   bool add = d.name.starts_with('+');
   if (add)
     d.name.erase(0, 1);

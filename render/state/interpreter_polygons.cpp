@@ -1,10 +1,10 @@
 // The four polygon requests: one or many faces, with or without holes. All become the same list of faces.
 #include "render/prims/polygons.h"
 #include "render/state/interpreter.h"
+#include "render/state/left_out.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numeric>
 
 namespace render {
@@ -41,14 +41,13 @@ void Interpreter::points_polygons(const RequestCall& call) {
   std::vector<int> loops_of_face(loops.size(), 1);
   if (general) loops_of_face.assign(call.integers(0).begin(), call.integers(0).end());
   if (loops.empty()) return; // exporters write empty meshes
-  if (auto thin = std::count_if(loops.begin(), loops.end(), [](int n) { return n < 3; }))
-    warn(call, fmt::format("{} of {} faces have fewer than 3 vertices and are left out", thin, loops.size()));
   std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
-  if (!take_positions(call, vars, P)) return;
+  if (!take_positions(call, vars, P, false)) return;
   std::span<const int> vertices = call.integers(first_argument + 1);
   PolygonFaces faces{{vertices.begin(), vertices.end()}, {loops.begin(), loops.end()}, {}};
   if (general) faces.loops_of_face = std::move(loops_of_face);
+  say_left_out(call, first_argument, "face", leave_out_bad_faces(faces, P, vars));
   add_polygons(std::move(faces), std::move(P), std::move(vars), primitive_state(), scene_.primitives);
 }
 

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kDeepest = 64;
 constexpr size_t kMostProcedurals = 1'000'000;
+/// Of those that come out of themselves: with something small in each, that takes some seconds.
+constexpr size_t kMostRepetitions = 100'000;
 
 /// The first word of a RunProgram as a file that can be run: on the path of procedurals, then that of the
 /// environment.
@@ -81,9 +83,10 @@ void Interpreter::procedural(std::span<const float, 6> bound, std::shared_ptr<Ge
 /// A new procedural with the state of the moment. Null, with a message: it cannot be kept.
 Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<const float> b,
                                          slvm::SourceRange where) {
-  if (procedurals_ == kMostProcedurals) {
-    error(call, fmt::format("more than {} procedurals in a frame; the request is skipped", kMostProcedurals),
-          RiError::kLimit);
+  if (procedurals_ >= kMostProcedurals) {
+    if (procedurals_++ == kMostProcedurals)
+      error(call, fmt::format("more than {} procedurals in a frame; the rest is skipped", kMostProcedurals),
+            RiError::kLimit);
     return nullptr;
   }
   // "Infinite" bounds stay numbers when they are transformed.
@@ -102,6 +105,7 @@ Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<cons
   p.motion = motion_;
   p.folder = folder_;
   p.displacement_bound = displacement_bound_of(*attributes_, ctm_);
+  p.from = ancestry_;
   p.depth = procedural_depth_ + 1;
   p.may_run = allow_programs || (allow_own_programs && depth_ == 0);
   p.where = call.where;
@@ -111,17 +115,21 @@ Procedural* Interpreter::keep_procedural(const RequestCall& call, std::span<cons
   return &p;
 }
 
-/// Carries out the procedurals among the operands of solids: these must be known before any is drawn.
-void Interpreter::complete_solids() {
+/// Carries out the procedurals among the operands of solids and the surfaces of area lights: these must be
+/// known before anything is drawn.
+void Interpreter::complete_early() {
   Camera camera(scene_.options);
   const PixelFilter& filter = scene_.options.filter;
   std::vector<Procedural> others;
   for (size_t i = 0; i < scene_.procedurals.size() && !stopped_; ++i) {
     Procedural p = std::move(scene_.procedurals[i]);
-    if (!p.solid.is_operand())
+    auto seen = seen_bound(p, camera, {filter.xwidth, filter.ywidth});
+    if (p.attributes->area_light)
+      run(p, (seen ? seen->area : 0) * scene_.options.relative_detail); // may add to the row
+    else if (!p.solid.is_operand())
       others.push_back(std::move(p));
-    else if (auto seen = seen_bound(p, camera, {filter.xwidth, filter.ywidth}))
-      run(p, seen->area * scene_.options.relative_detail); // may add to the row
+    else if (seen)
+      run(p, seen->area * scene_.options.relative_detail);
   }
   scene_.procedurals = std::move(others);
 }
@@ -130,7 +138,7 @@ SceneContent Interpreter::make_content(const Procedural& p, float area) {
   if (stopped_) return {};
   auto spaces = spaces_;
   run(p, area * scene_.options.relative_detail);
-  complete_solids();
+  complete_early();
   scene_.copies.clear();
   SceneContent content{std::exchange(scene_.primitives, {}), std::exchange(scene_.procedurals, {}), {}};
   for (const auto& [name, space] : spaces_)
@@ -145,12 +153,32 @@ void Interpreter::report(const Procedural& p, std::string_view text) {
   diagnostics_.error(p.where, fmt::format("Procedural: {}: {}", name, text));
 }
 
+/// Whether a procedural is one too many, which is said once of each. Recursion without an end doubles its
+/// work with every level: what was found not to end is not begun again.
+bool Interpreter::never_ends(const Procedural& p, const std::string& what) {
+  bool again = false;
+  for (const Ancestry* a = p.from.get(); a && !again; a = a->from.get())
+    again = a->what == what;
+  if (again && endless_.contains(what)) return true;
+  std::string why;
+  if (p.depth > kDeepest)
+    why = fmt::format("procedurals come out of each other more than {} deep", kDeepest);
+  else if (again && ++repetitions_ > kMostRepetitions)
+    why = fmt::format("it has come out of itself more than {} times", kMostRepetitions);
+  if (why.empty()) return false;
+  if (endless_.insert(what).second)
+    report(p, fmt::format("{}, and goes no further; one that contains itself needs an end: DetailRange, or "
+                          "IfBegin with a count that it keeps in Attribute \"user\"",
+                          why));
+  return true;
+}
+
 /// With the state of the request; what it changes ends with it.
 void Interpreter::run(const Procedural& p, float area) {
-  if (p.depth > kDeepest) {
-    report(p, fmt::format("procedurals come out of each other more than {} deep", kDeepest));
-    return;
-  }
+  const std::string what = p.maker ? fmt::format("function {}", fmt::ptr(p.maker.get()))
+                                   : fmt::format("{} {}", p.type, fmt::join(p.arguments, "\n"));
+  if (never_ends(p, what)) return;
+  auto ancestry = std::exchange(ancestry_, std::make_shared<const Ancestry>(Ancestry{what, p.from}));
   auto attributes = std::exchange(attributes_, p.attributes);
   Matrix4 ctm = std::exchange(ctm_, p.object_to_camera);
   MotionMatrices motion = std::exchange(motion_, p.motion);
@@ -182,6 +210,7 @@ void Interpreter::run(const Procedural& p, float area) {
   ctm_ = ctm;
   motion_ = std::move(motion);
   attributes_ = attributes;
+  ancestry_ = std::move(ancestry);
 }
 
 void Interpreter::run_plug_in(const Procedural& p, float area) {

@@ -1,6 +1,7 @@
 // SubdivisionMesh and its tags.
 #include "render/prims/subdivision.h"
 #include "render/state/interpreter.h"
+#include "render/state/left_out.h"
 
 #include <fmt/format.h>
 
@@ -115,7 +116,13 @@ void Interpreter::subdivision_mesh(const RequestCall& call) {
   if (!sizes || mesh.nvertices.empty()) return; // exporters write empty meshes
   std::vector<TypedParam> vars = primitive_vars(call, *sizes);
   std::vector<Vec3> P;
-  if (!take_positions(call, vars, P) || !subdivision_tags(call, sizes->vertex, mesh)) return;
+  if (!take_positions(call, vars, P, false) || !subdivision_tags(call, sizes->vertex, mesh)) return;
+  PolygonFaces faces{
+      {mesh.vertices.begin(), mesh.vertices.end()}, {mesh.nvertices.begin(), mesh.nvertices.end()}, {}};
+  say_left_out(call, 1, "face", leave_out_bad_faces(faces, P, vars, &mesh.holes));
+  mesh.nvertices = faces.loops;
+  mesh.vertices = faces.vertices;
+  if (mesh.nvertices.empty()) return;
   auto made = add_subdivision(mesh, P, vars, primitive_state(), scene_.primitives);
   if (!made)
     error(call, made.error());

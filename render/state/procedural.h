@@ -22,19 +22,26 @@ public:
   virtual void make(float detail) = 0;
 };
 
+/// The procedurals that one came out of.
+struct Ancestry {
+  std::string what; ///< the innermost: its type and arguments
+  std::shared_ptr<const Ancestry> from;
+};
+
 struct Procedural {
   std::string type;
   std::vector<std::string> arguments;
   std::shared_ptr<GeometryMaker> maker; ///< where there is no type
   Box bound;                            ///< object space
   std::shared_ptr<Attributes> attributes;
-  Matrix4 object_to_camera;     ///< when the shutter opens
-  MotionMatrices motion;        ///< when it moves
-  float displacement_bound = 0; ///< of its attributes, in camera space
-  SolidPlace solid;             ///< the solid block it stands in
-  std::string folder;           ///< of the file it stands in
-  int depth = 0;                ///< procedurals it came from
-  bool may_run = false;         ///< programs
+  Matrix4 object_to_camera;             ///< when the shutter opens
+  MotionMatrices motion;                ///< when it moves
+  float displacement_bound = 0;         ///< of its attributes, in camera space
+  SolidPlace solid;                     ///< the solid block it stands in
+  std::string folder;                   ///< of the file it stands in
+  std::shared_ptr<const Ancestry> from; ///< null: of the scene itself
+  int depth = 0;                        ///< procedurals it came from
+  bool may_run = false;                 ///< programs
   slvm::SourceRange where;
 };
 

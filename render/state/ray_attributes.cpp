@@ -112,13 +112,28 @@ std::optional<std::string> set_photon(RayAttributes& a, std::string_view name, c
     a.photon_estimator = static_cast<int>(std::min(value.numbers[0], 1e6f));
     return "";
   }
+  if (name == "ior") {
+    if (value.numbers.size() != 1 || !(value.numbers[0] >= 1)) return "takes one number, 1 or more";
+    a.photon_ior = value.numbers[0];
+    return "";
+  }
   if (name != "shadingmodel") return {};
-  for (size_t i = 0; i < std::size(kPhotonModels) && value.strings.size() == 1; ++i)
-    if (value.strings[0] == kPhotonModels[i]) {
+  if (value.strings.size() != 1) return "takes one string";
+  // Later releases: "refractive:ior=1.4", and names of their own for what refracts.
+  std::string_view text = value.strings[0], model = text.substr(0, text.find(':'));
+  if (constexpr std::string_view kIor = ":ior="; text.substr(model.size()).starts_with(kIor)) {
+    const float ior = std::strtof(value.strings[0].c_str() + model.size() + kIor.size(), nullptr);
+    if (!(ior >= 1)) return "has an index of refraction of 1 or more";
+    a.photon_ior = ior;
+  }
+  if (model == "refractive" || model == "dielectric") model = "glass";
+  for (size_t i = 0; i < std::size(kPhotonModels); ++i)
+    if (model == kPhotonModels[i]) {
       a.photon_model = static_cast<PhotonModel>(i);
       return "";
     }
-  return fmt::format("is \"{}\"", fmt::join(kPhotonModels, "\" or \""));
+  return fmt::format("\"{}\" is not known; known are \"{}\"; photons go on as before it", model,
+                     fmt::join(kPhotonModels, "\", \""));
 }
 
 /// "a b" replaces the groups; "+a" joins one, "-a" leaves one.
@@ -167,6 +182,7 @@ std::optional<slvm::Value> ray_attribute_value(const RayAttributes& a, std::stri
   if (name == "photon:globalmap") return text(a.global_map);
   if (name == "photon:causticmap") return text(a.caustic_map);
   if (name == "photon:shadingmodel") return text(kPhotonModels[static_cast<size_t>(a.photon_model)]);
+  if (name == "photon:ior") return number(a.photon_ior);
   if (name == "photon:estimator") return number(static_cast<float>(a.photon_estimator));
   if (name == "grouping:membership") return text(a.groups);
   return {};

@@ -50,6 +50,7 @@ struct RayAttributes {
   // "photon"
   std::string global_map, caustic_map; ///< files
   PhotonModel photon_model = PhotonModel::kMatte;
+  float photon_ior = 0;       ///< of glass and water; 0: as they have it
   int photon_estimator = 100; ///< photons that radiance is computed of
   /// "grouping" "membership": names with single spaces between.
   std::string groups;

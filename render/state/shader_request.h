@@ -21,12 +21,13 @@ struct ShaderParam {
 };
 
 struct ShaderRequest {
-  RequestId kind =
-      RequestId::kSurface; ///< Surface, Displacement, LightSource, Atmosphere, Interior, Exterior, Imager
+  RequestId kind = RequestId::kSurface; ///< Surface, Displacement, LightSource, AreaLightSource, Atmosphere,
+                                        ///< Interior, Exterior, Imager
   std::string name;
   std::vector<ShaderParam> params;
   Matrix4 shader_to_camera;
-  std::string handle; ///< of lights
+  std::string handle;    ///< of lights
+  uint32_t samples = 16; ///< of area lights: points of their surface for each point they light
   slvm::SourceRange where;
 };
 

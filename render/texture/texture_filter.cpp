@@ -28,6 +28,7 @@ using I = hn::Vec<decltype(kWideInt)>;
 /// A texel of a level is a box as wide as itself, bilinear interpolation a tent of twice that: together they
 /// spread as a box does that is wider by this.
 constexpr float kSpread = 1.7320508f;
+constexpr size_t kSums = TextureFilter::kSums;
 
 HWY_INLINE V number(float x) {
   return hn::Set(kWide, x);
@@ -169,32 +170,44 @@ template <class T> HWY_INLINE V load_channel(const std::byte* const* texels, siz
   return hn::Load(kWide, numbers);
 }
 
+/// The weight that is left where no channel is greater than the layout's limit; it is counted.
+HWY_INLINE V weight_within(const TextureFilter::Layout& layout, const V (&values)[3], V weight, V& counted) {
+  const V limit = number(layout.ignore_above);
+  for (size_t c = 0; c < layout.channels; ++c)
+    weight = hn::IfThenZeroElse(hn::Gt(values[c], limit), weight);
+  counted = hn::Add(counted, weight);
+  return weight;
+}
+
 /// The channels of one texel in each lane, times a weight.
 HWY_INLINE void add_texels(const TextureFilter::Layout& layout, const std::byte* const* texels, V weight,
-                           V (&sums)[3]) {
+                           V (&sums)[kSums]) {
+  V values[3] = {hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide)};
   if (layout.type == PixelType::kByte) { // all channels at once
     alignas(64) uint32_t bits[kLanes];
     for (size_t k = 0; k < kLanes; ++k)
       std::memcpy(&bits[k], texels[k], sizeof bits[k]);
     const auto all = hn::Load(kWideBits, bits), byte = hn::Set(kWideBits, 255u);
-    auto add = [&](size_t c, auto shifted) HWY_ATTR {
-      const V value = hn::ConvertTo(kWide, hn::BitCast(kWideInt, hn::And(shifted, byte)));
-      sums[c] = hn::Add(sums[c], hn::Mul(weight, value));
+    auto set = [&](size_t c, auto shifted) HWY_ATTR {
+      values[c] = hn::ConvertTo(kWide, hn::BitCast(kWideInt, hn::And(shifted, byte)));
     };
-    add(0, all);
-    if (layout.channels > 1) add(1, hn::ShiftRight<8>(all));
-    if (layout.channels > 2) add(2, hn::ShiftRight<16>(all));
-    return;
+    set(0, all);
+    if (layout.channels > 1) set(1, hn::ShiftRight<8>(all));
+    if (layout.channels > 2) set(2, hn::ShiftRight<16>(all));
+    if (layout.limited) weight = weight_within(layout, values, weight, sums[3]);
+  } else {
+    for (size_t c = 0; c < layout.channels; ++c)
+      values[c] = layout.type == PixelType::kShort ? load_channel<uint16_t>(texels, c)
+                                                   : load_channel<float>(texels, c);
+    if (layout.limited) weight = weight_within(layout, values, weight, sums[3]);
+    for (size_t c = 0; c < layout.channels; ++c) // it may be infinite
+      values[c] = hn::IfThenElseZero(hn::Ne(weight, hn::Zero(kWide)), values[c]);
   }
-  for (size_t c = 0; c < layout.channels; ++c) {
-    V value =
-        layout.type == PixelType::kShort ? load_channel<uint16_t>(texels, c) : load_channel<float>(texels, c);
-    value = hn::IfThenElseZero(hn::Ne(weight, hn::Zero(kWide)), value); // it may be infinite
-    sums[c] = hn::Add(sums[c], hn::Mul(weight, value));
-  }
+  for (size_t c = 0; c < layout.channels; ++c)
+    sums[c] = hn::Add(sums[c], hn::Mul(weight, values[c]));
 }
 
-/// `sums`: three floats each.
+/// `sums`: kSums floats each.
 void look_at(const TextureFilter::Layout& layout, const TextureImage::Level& level, Interpolation way,
              const TextureProbes& probes, float* sums) {
   const V width = number(static_cast<float>(level.width)), height = number(static_cast<float>(level.height));
@@ -205,7 +218,7 @@ void look_at(const TextureFilter::Layout& layout, const TextureImage::Level& lev
                rows =
                    taps(way, hn::Mul(hn::LoadU(kWide, &probes.t[i]), height), level.height, layout.wrap[1]);
     const V weight = hn::LoadU(kWide, &probes.weight[i]);
-    V found[3] = {hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide)};
+    V found[kSums] = {hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide), hn::Zero(kWide)};
     alignas(64) int32_t row[kLanes], in_row[4][kLanes];
     for (size_t x = 0; x < columns.count; ++x)
       hn::Store(hn::Mul(columns.at[x], hn::Set(kWideInt, static_cast<int32_t>(layout.texel))), kWideInt,
@@ -222,12 +235,15 @@ void look_at(const TextureFilter::Layout& layout, const TextureImage::Level& lev
         add_texels(layout, texels, hn::Mul(of_row, columns.weight[x]), found);
       }
     }
-    for (size_t c = 0; c < layout.channels; ++c) {
+    auto add = [&](size_t c) HWY_ATTR {
       alignas(64) float channel[kLanes];
       hn::Store(found[c], kWide, channel);
       for (size_t k = 0; k < kLanes; ++k)
-        sums[3 * probes.sum[i + k] + c] += channel[k];
-    }
+        sums[kSums * probes.sum[i + k] + c] += channel[k];
+    };
+    for (size_t c = 0; c < layout.channels; ++c)
+      add(c);
+    if (layout.limited) add(3);
   }
 }
 
@@ -259,6 +275,8 @@ TextureFilter::TextureFilter(const TextureImage& image, const slvm::TextureLooku
              {swrap, twrap}};
   fill_ = o.fill;
   one_ = header.type == PixelType::kByte ? 255.0f : header.type == PixelType::kShort ? 65535.0f : 1.0f;
+  layout_.limited = o.ignore_above < std::numeric_limits<float>::infinity();
+  layout_.ignore_above = o.ignore_above * one_;
   one_sample_ = o.samples == 1;
   constexpr float kMostPlaces = 16;
   limits_ = {static_cast<float>(header.levels[0].width), static_cast<float>(header.levels[0].height),
@@ -323,7 +341,7 @@ bool TextureFilter::means(const TextureRegions& regions, uint32_t active, Means&
   kFindPlaces(regions, limits_, places);
   for (uint32_t rest = active; rest != 0; rest &= rest - 1)
     add_probes(regions, places, static_cast<uint32_t>(std::countr_zero(rest)));
-  float sums[2 * kBlock + 1][3] = {}; // of each region in either of its levels, and of nobody
+  float sums[2 * kBlock + 1][kSums] = {}; // of each region in either of its levels, and of nobody
   bool read = true;
   for (size_t i = 0; i < probes_.size(); ++i) {
     TextureProbes& probes = probes_[i];
@@ -334,11 +352,15 @@ bool TextureFilter::means(const TextureRegions& regions, uint32_t active, Means&
     if (read) kLookAt(layout_, level, nearest ? Interpolation::kNearest : interpolation_, probes, sums[0]);
     probes.clear();
   }
+  auto sum = [&](size_t lane, size_t c) { return sums[lane][c] + sums[kBlock + lane][c]; };
+  auto mean = [&](size_t lane, size_t c) {
+    if (!layout_.limited) return sum(lane, c); // weights add up to 1
+    const float counted = sum(lane, 3) * one_;
+    return counted > 0 ? sum(lane, c) / counted : 0.0f;
+  };
   for (size_t c = 0; c < channels_; ++c)
     for (size_t lane = 0; lane < kBlock; ++lane)
-      out[c][lane] = c < layout_.channels ? sums[lane][c] + sums[kBlock + lane][c]
-                     : active >> lane & 1 ? fill_
-                                          : 0.0f;
+      out[c][lane] = c < layout_.channels ? mean(lane, c) : active >> lane & 1 ? fill_ : 0.0f;
   return read;
 }
 

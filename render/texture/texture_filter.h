@@ -83,7 +83,11 @@ public:
            channels = 0; ///< bytes: of a texel, before the first channel; channels there are
     PixelType type = PixelType::kByte;
     TextureWrap wrap[2] = {};
+    bool limited = false;
+    float ignore_above = 0; ///< texels with a channel greater than this do not count; where `limited`
   };
+  /// What is summed up for a region: three channels, and the weight of the texels that count if `limited`.
+  static constexpr size_t kSums = 4;
   struct Limits {
     float width, height, most_places, last_level;
     bool between_levels;

@@ -2,9 +2,10 @@
 //
 // Inside, differences are centred; where only one neighbour holds a value (the edges of the grid, lanes
 // beside others that have none) one-sided; 0 where none does, and for all of a grid without extent in that
-// direction, and for what rays brought that are spread by chance. RISpec 3.2 leaves the scheme open; this is
-// PRMan's default ("derivatives" "centered" 1). Points of other pieces (Lattice::kPieces) are no neighbours.
-// Hits of rays (Lattice::kHits) have their own neighbours: all three points of a hit share its differences.
+// direction, for what rays brought that are spread by chance, and in area lights, whose points are.
+// RISpec 3.2 leaves the scheme open; this is PRMan's default ("derivatives" "centered" 1). Points of other
+// pieces (Lattice::kPieces) are no neighbours. Hits of rays (Lattice::kHits) have their own neighbours: all
+// three points of a hit share its differences.
 #pragma once
 
 #include "slvm/exec/grid_ops.h"
@@ -18,7 +19,8 @@ public:
       : grid_(*call.run.state.grid), points_(call.run.points),
         valid_(call.run.mask.at_level(call.level & ~kScatteredLevel)),
         everywhere_(call.level == 0 || mask_all(valid_, call.run.points)),
-        differ_(grid_.derivatives && !(call.level & kScatteredLevel && call.run.gathers.any_scattered())) {}
+        derivatives_(grid_.derivatives && !call.run.on_emitter),
+        differ_(derivatives_ && !(call.level & kScatteredLevel && call.run.gathers.any_scattered())) {}
 
   /// Points that follow each other, as their neighbours do: `lo` and `hi` are those of the first, `steps`
   /// steps of the grid apart, or itself where it has none there.
@@ -62,7 +64,7 @@ private:
     auto hits = static_cast<size_t>(grid_.nu());
     size_t beside = grid_.nv() == 3 ? (along_u ? hits : 2 * hits) : 0;
     for (size_t lane = 0, hit = 0; lane < points_; ++lane, hit = hit + 1 == hits ? 0 : hit + 1) {
-      bool both = grid_.derivatives && beside > 0 && holds(hit) && holds(hit + beside);
+      bool both = derivatives_ && beside > 0 && holds(hit) && holds(hit + beside);
       f(both ? Run{lane, 1, hit, hit + beside, 1} : Run{lane, 1, lane, lane, 0});
     }
   }
@@ -72,7 +74,8 @@ private:
   size_t points_; ///< that differences are wanted of: of hits, those with neighbours or without
   const MaskWord* valid_;
   bool everywhere_;
-  bool differ_; ///< false: neighbours say nothing, all differences are 0
+  bool derivatives_; ///< false: all differences are 0
+  bool differ_;      ///< false: neighbours say nothing, all differences are 0
 };
 
 } // namespace slvm

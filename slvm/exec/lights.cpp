@@ -2,6 +2,7 @@
 #include "slvm/exec/lights.h"
 
 #include "slvm/exec/run.h"
+#include "slvm/support/sample_sequence.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,6 +16,11 @@ LightCache::LightCache() = default;
 LightCache::~LightCache() = default;
 
 namespace {
+
+/// How often a light runs for each point it lights.
+uint32_t samples_of(const Instance& light) {
+  return light.emitter() ? light.emitter()->samples() : 1;
+}
 
 // A uniform triple of zeros. Kernels only read it.
 alignas(kPlaneAlign) constexpr float kNothing[3 * kMaxLanes] = {};
@@ -39,9 +45,40 @@ bool same(const Operand& o, size_t pitch, const std::vector<float>& saved) {
   return true;
 }
 
+/// Brings the run of an area light to its points for this sample: for each lit point another one. All points
+/// of a hit of a ray have the same, so that what shaders make of the light has derivatives there.
+void place_on_emitter(GridState& state, LitGrid& g) {
+  const Grid& lit = *state.grid;
+  if (!g.on_emitter)
+    g.on_emitter = std::make_unique<Grid>(lit.nu(), lit.nv());
+  else
+    g.on_emitter->reset(lit.nu(), lit.nv());
+  const SobolSample sample(g.sample.sample);
+  std::vector<float> x(lit.points()), y(lit.points());
+  for (size_t i = 0; i < x.size(); ++i) {
+    const uint32_t seed = point_seed(lit.id, g.sample.light, static_cast<uint32_t>(i % lit.samples()));
+    x[i] = scrambled(sample.bits[0], scramble_seed(seed, SampleUse::kTurn));
+    y[i] = scrambled(sample.bits[1], scramble_seed(seed, SampleUse::kRadius));
+  }
+  g.light->emitter()->place(x, y, g.run->program, *g.on_emitter);
+  g.run->on_emitter = g.on_emitter.get();
+  g.run->emitter_seed = point_seed(lit.id, g.sample.light, g.sample.sample);
+}
+
+/// Makes the colours of a light that ran its part of the whole.
+void share(ShaderRun& run, float part) {
+  if (!run.slot(Global::kCl)) return; // it is black
+  for (size_t i = 0; i < run.emission_count; ++i) {
+    const Planes& colour = run.emissions[i].colour;
+    for (size_t c = 0; c < 3; ++c)
+      for (size_t k = 0; k < (colour.step ? run.pitch : kMaxLanes); ++k)
+        colour.data[c * colour.pitch + k] *= part;
+  }
+}
+
 } // namespace
 
-LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance& light,
+LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance& light, LightSample sample,
                            const Operand& position, const Operand& normal, std::span<const SentValue> sent) {
   size_t pitch = state.grid->pitch();
   const Instance::Bound& bound = light.bound();
@@ -49,42 +86,46 @@ LitGrid& LightCache::light(GridState& state, const ShaderRun& by, const Instance
   if (!bound.reads_messages && sent.empty())
     for (size_t i = 0; i < used_; ++i) {
       LitGrid& g = *grids_[i];
-      if (g.light_id == light.id() && same(position, pitch, g.position) &&
+      if (g.light_id == light.id() && g.sample.sample == sample.sample && same(position, pitch, g.position) &&
           (!uses_normal || same(normal, pitch, g.normal))) {
         g.last_use = ++uses_;
         return g;
       }
     }
   const Instance& shader = sent.empty() ? light : open(state.machine, light);
-  LitGrid& g = place_for(shader.id());
+  LitGrid& g = place_for(shader.id(), sample.sample);
   g.last_use = ++uses_;
   if (g.light_id != shader.id()) {
     g.run = std::make_unique<ShaderRun>(state, shader, &by);
     g.light = &light;
     g.light_id = shader.id();
   }
+  g.sample = sample;
   g.run->outer = &by;
+  if (light.emitter()) place_on_emitter(state, g);
   save(position, pitch, g.position);
   if (uses_normal) save(normal, pitch, g.normal);
   g.run->prepare(&position, &normal, sent);
   g.run->execute();
   end_light(*g.run);
+  if (light.emitter()) share(*g.run, 1 / static_cast<float>(samples_of(light)));
   return g;
 }
 
-LitGrid& LightCache::place_for(uint64_t light_id) {
+LitGrid& LightCache::place_for(uint64_t light_id, uint32_t sample) {
   // The open loop looks at the latest of each light only: the one not asked for longest can go.
   LitGrid* oldest = nullptr;
   size_t kept = 0;
   for (size_t i = 0; i < used_; ++i) {
     LitGrid& g = *grids_[i];
-    if (g.light_id != light_id) continue;
+    if (g.light_id != light_id || g.sample.sample != sample) continue;
     ++kept;
     if (!oldest || g.last_use < oldest->last_use) oldest = &g;
   }
   if (kept >= kKept) return *oldest;
   size_t place = used_;
-  while (place < grids_.size() && grids_[place]->light_id != light_id)
+  auto is_other = [&](const LitGrid& g) { return g.light_id != light_id || g.sample.sample != sample; };
+  while (place < grids_.size() && is_other(*grids_[place]))
     ++place;
   if (place == grids_.size()) grids_.push_back(std::make_unique<LitGrid>());
   std::swap(grids_[used_], grids_[place]);
@@ -131,11 +172,16 @@ void LightLoop::begin(ShaderRun& run, std::string_view category, const Operand& 
     const Planes& n = run.state.grid->variable(Global::kN);
     if (n.data) normal = {n.data, n.pitch, n.step, 1};
   }
+  uint32_t number = 0;
   for (const Instance* light : run.state.services.lights(run.shading_state())) {
+    ++number;
     if (!light->bound().emits || !category_matches(category, light->categories())) continue;
-    LitGrid& lit = run.state.lights.light(run.state, run, *light, position, normal, sent_);
-    for (size_t i = 0; i < lit.run->emission_count; ++i)
-      rounds_.emplace_back(&lit, &lit.run->emissions[i]);
+    for (uint32_t sample = 0; sample < samples_of(*light); ++sample) {
+      LitGrid& lit =
+          run.state.lights.light(run.state, run, *light, {number, sample}, position, normal, sent_);
+      for (size_t i = 0; i < lit.run->emission_count; ++i)
+        rounds_.emplace_back(&lit, &lit.run->emissions[i]);
+    }
   }
 }
 
@@ -199,6 +245,24 @@ void all_points(const ShaderRun& run, std::vector<MaskWord>& lit) {
 
 } // namespace
 
+namespace {
+
+/// Whether an area light shines from the origin of its space, as lights do that know nothing of surfaces: it
+/// then means the points of the surface.
+bool stands_at_origin(const ShaderRun& run, const Operand& from) {
+  if (!run.on_emitter) return false;
+  constexpr float kRounding = 1e-6f;
+  const Matrix4& m = run.instance.shader_to_current();
+  const std::array<float, 3> origin = transform_point(m, {0, 0, 0});
+  const float near = kRounding * (std::fabs(origin[0]) + std::fabs(origin[1]) + std::fabs(origin[2]));
+  for (size_t i = 0; i < (from.step ? run.points : 1); ++i)
+    for (size_t c = 0; c < 3; ++c)
+      if (!(std::fabs(from.plane(c)[i] - origin[c]) <= near)) return false;
+  return true;
+}
+
+} // namespace
+
 LightKernels::LightKernels(const KernelTable& kernels) {
   auto find = [&](std::string_view name, std::string_view signature) {
     return kernels[static_cast<ShadeopId>(find_shadeop(name, signature))];
@@ -236,7 +300,9 @@ bool LightLoop::next(ShaderRun& run, const MaskWord* in_loop) {
 void begin_illuminate(ShaderRun& run, const Operand& from, const Operand* axis, const Operand* angle,
                       std::vector<MaskWord>& lit) {
   Operand l = as_operand(*run.slot(Global::kL));
-  call(run.state.light_kernels.subtract, l, {as_operand(*run.slot(Global::kPs)), from}, run.pitch);
+  const Operand& place =
+      stands_at_origin(run, from) ? as_operand(run.on_emitter->variable(Global::kP)) : from;
+  call(run.state.light_kernels.subtract, l, {as_operand(*run.slot(Global::kPs)), place}, run.pitch);
   all_points(run, lit);
   if (!axis) return;
   std::vector<MaskWord> points = lit;
@@ -316,6 +382,23 @@ void light_cache(const GridCall& call) {
                     call.run.points);
 }
 
+namespace {
+
+void add_colour(const Emission& e, const Operand& out, size_t lanes) {
+  for (size_t c = 0; c < 3; ++c) {
+    const float* from = e.colour.data + c * e.colour.pitch;
+    float* to = out.plane(c);
+    if (e.colour.step)
+      for (size_t i = 0; i < lanes; ++i)
+        to[i] += from[i];
+    else
+      for (size_t i = 0; i < lanes; ++i)
+        to[i] += *from;
+  }
+}
+
+} // namespace
+
 // Sum of Cl over the lights that have no illuminate or solar.
 void ambient(const GridCall& call) {
   ShaderRun& run = call.run;
@@ -326,19 +409,14 @@ void ambient(const GridCall& call) {
   const Planes& n = run.state.grid->variable(Global::kN);
   Operand origin{const_cast<float*>(kNothing), kMaxLanes, 0, 1};
   Operand position = p.data ? as_operand(p) : origin, normal = n.data ? as_operand(n) : origin;
+  uint32_t number = 0;
   for (const Instance* light : run.state.services.lights(run.shading_state())) {
+    ++number;
     if (light->bound().emits) continue;
-    const Emission& e = run.state.lights.light(run.state, run, *light, position, normal).run->emissions[0];
-    for (size_t c = 0; c < 3; ++c) {
-      const float* from = e.colour.data + c * e.colour.pitch;
-      float* to = out.plane(c);
-      if (e.colour.step)
-        for (size_t i = 0; i < run.pitch; ++i)
-          to[i] += from[i];
-      else
-        for (size_t i = 0; i < run.pitch; ++i)
-          to[i] += *from;
-    }
+    for (uint32_t sample = 0; sample < samples_of(*light); ++sample)
+      add_colour(run.state.lights.light(run.state, run, *light, {number, sample}, position, normal)
+                     .run->emissions[0],
+                 out, run.pitch);
   }
 }
 

@@ -39,10 +39,18 @@ struct SentValue {
   PlaneMemory memory;
 };
 
-/// One light's results for one set of points.
+/// Which run of a light this is.
+struct LightSample {
+  uint32_t light = 0;  ///< its number among the lights that are on
+  uint32_t sample = 0; ///< of an area light, which of its points for each lit one
+};
+
+/// One light's results for one set of points; of an area light, those of one of its samples.
 struct LitGrid {
   std::unique_ptr<ShaderRun> run;      ///< kept for lightsource()
   std::vector<float> position, normal; ///< the points and normals it ran for
+  std::unique_ptr<Grid> on_emitter;    ///< of an area light: the points of its surface
+  LightSample sample;
   const Instance* light = nullptr;
   uint64_t light_id = 0;
   uint64_t last_use = 0; ///< when it was asked for, by LightCache's count
@@ -56,8 +64,8 @@ public:
   void clear() { used_ = 0; }
   /// What `light` gives at `position` with `normal`: run now, unless it was for the same points with nothing
   /// sent.
-  LitGrid& light(GridState& state, const ShaderRun& by, const Instance& light, const Operand& position,
-                 const Operand& normal, std::span<const SentValue> sent = {});
+  LitGrid& light(GridState& state, const ShaderRun& by, const Instance& light, LightSample sample,
+                 const Operand& position, const Operand& normal, std::span<const SentValue> sent = {});
 
 private:
   /// For how many sets of points what a light gives is kept. Shaders that march through a volume come to new
@@ -65,7 +73,7 @@ private:
   static constexpr size_t kKept = 4;
 
   /// A place for the next run of a light, with registers of an earlier one if there are any.
-  LitGrid& place_for(uint64_t light_id);
+  LitGrid& place_for(uint64_t light_id, uint32_t sample);
   /// The light with all its parameters as variables: a specialised one has values in its code.
   const Instance& open(const Machine&, const Instance&);
 

@@ -65,6 +65,8 @@ bool set_lookup_option(TextureLookup& lookup, LookupWidths& widths, std::string_
     lookup.options.samples = values[0];
   else if (token == "fill")
     lookup.options.fill = values[0];
+  else if (token == "ignoreabove")
+    lookup.options.ignore_above = values[0];
   else if (token == "lerp")
     lookup.options.between_levels = values[0] != 0;
   else

@@ -70,7 +70,7 @@ void ShaderRun::bind_registers() {
   frame_.step[2] = frame_.step[3] = 1;
   frame_.lanes = frame_.end = pitch;
   frame_.active = points;
-  frame_.context = {&state.machine.strings(), state.grid->id};
+  frame_.context = {&state.machine.strings(), random_seed()};
   operands_.resize(bound.most_operands);
 }
 
@@ -108,8 +108,10 @@ const Planes* ShaderRun::override_for(size_t i) const {
   auto fits = [&](const Planes& p) { return p.type == slot.type && p.elements == slot.elements; };
   for (const SentValue& sent : sent_)
     if (sent.name == slot.name && fits(sent.planes)) return &sent.planes;
-  // Primitive variables belong to the surface that is lit.
-  const Planes* primvar = program.kind == ShaderKind::kLight ? nullptr : state.grid->primvar(slot.name);
+  // Primitive variables belong to the surface that is lit, or to that of an area light.
+  const Planes* primvar = on_emitter                           ? on_emitter->primvar(slot.name)
+                          : program.kind == ShaderKind::kLight ? nullptr
+                                                               : state.grid->primvar(slot.name);
   return primvar && fits(*primvar) ? primvar : nullptr;
 }
 
@@ -130,7 +132,7 @@ Planes ShaderRun::bind_variable(Global g, bool stored, const Operand* position, 
     if (g == Global::kPs && position) return from_operand(*position, Type::kPoint);
     if (g == Global::kNs && normal) return from_operand(*normal, Type::kNormal);
     if (g == Global::kL || g == Global::kCl || g == Global::kOl) return take_copy(own, {});
-    if (g == Global::kP) { // where the light is
+    if (g == Global::kP && !on_emitter) { // where the light is
       std::array<float, 3> at = transform_point(instance.shader_to_current(), {0, 0, 0});
       return take_uniform(Type::kPoint, {at[0], at[1], at[2]});
     }
@@ -140,7 +142,7 @@ Planes ShaderRun::bind_variable(Global g, bool stored, const Operand* position, 
   } else if (g == Global::kL || g == Global::kCl || g == Global::kOl) {
     return take_uniform(own.type, {0, 0, 0}); // until a light loop binds them
   }
-  const Planes& p = state.grid->variable(g);
+  const Planes& p = given(g);
   if (!p.data) return default_variable(g);
   bool uniform_needed = global_info(g).detail == Detail::kUniform && p.step;
   return uniform_needed ? take_copy({std::string(), p.type, 0, false, false, true}, p) : p;
@@ -161,8 +163,14 @@ Planes ShaderRun::lattice(Global g) {
   return {data, pitch, 1, Type::kFloat, 0};
 }
 
+const Planes& ShaderRun::given(Global g) const {
+  if (on_emitter)
+    if (const Planes& own = on_emitter->variable(g); own.data) return own;
+  return state.grid->variable(g);
+}
+
 const Planes& ShaderRun::variable(Global g) {
-  const Planes& p = state.grid->variable(g);
+  const Planes& p = given(g);
   if (p.data) return p;
   auto [it, is_new] = unset_.try_emplace(g);
   if (is_new) it->second = default_variable(g);

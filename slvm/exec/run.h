@@ -70,6 +70,9 @@ public:
   const ShaderRun* outer;
   const Program& program;
   const Instance::Bound& bound;
+  const Grid* on_emitter =
+      nullptr;                  ///< of area lights: the points of their surfaces, for this sample; else null
+  uint64_t emitter_seed = 0;    ///< of what is random in them; else Grid::id counts
   size_t points = 0, pitch = 0; ///< of the grid; points fewer when neighbours of hits are left out
 
   std::vector<Planes> slots; ///< by slot of the program
@@ -109,6 +112,8 @@ public:
     int32_t i = bound.slot_of[static_cast<size_t>(g)];
     return i < 0 ? nullptr : &slots[static_cast<size_t>(i)];
   }
+  /// What is random in the run starts from this.
+  uint64_t random_seed() const { return on_emitter ? emitter_seed : state.grid->id; }
   /// What a predefined variable is at the beginning, for functions that read it unasked.
   const Planes& variable(Global g);
   /// The planes of parameter `name`, or null.
@@ -125,6 +130,8 @@ private:
   const Planes* override_for(size_t slot) const;
   Planes bind_variable(Global g, bool stored, const Operand* position, const Operand* normal);
   Planes default_variable(Global g);
+  /// A predefined variable as the renderer gives it: of an area light, on its surface; data null: not set.
+  const Planes& given(Global g) const;
   Planes lattice(Global g);
   Planes take_uniform(Type type, std::initializer_list<float> value);
   Planes take_copy(const Slot& slot, const Planes& from);

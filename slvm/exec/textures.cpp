@@ -8,11 +8,14 @@
 #include "slvm/exec/lookup_region.h"
 #include "slvm/exec/query.h"
 #include "slvm/exec/rays/ray_means.h"
+#include "slvm/exec/run.h"
 #include "slvm/exec/spaces.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace slvm {
 namespace {
@@ -171,24 +174,98 @@ bool asks_for_rays(const GridCall& call) {
   return text_of(call.run, call.operands[1].planes) == "raytrace";
 }
 
-} // namespace
-
-namespace grid_ops {
-
-void texture_lookup(const GridCall& call) {
+void look_up_texture(const GridCall& call) {
   LookupCall(call, MapKind::kTexture).run();
 }
-void environment_lookup(const GridCall& call) {
+void look_up_environment(const GridCall& call) {
   if (asks_for_rays(call))
     trace_environment(call);
   else
     LookupCall(call, MapKind::kEnvironment).run();
 }
-void shadow_lookup(const GridCall& call) {
+void look_up_shadow(const GridCall& call) {
   if (asks_for_rays(call))
     trace_shadow(call);
   else
     LookupCall(call, MapKind::kShadow).run();
+}
+
+/// One map and one number of samples serve a whole lookup: points are taken together that have the same ones.
+class AlikePoints {
+public:
+  explicit AlikePoints(const GridCall& call) : call_(call) {
+    if (call.operands[1].planes.step) differing_.push_back(1);
+    for (size_t i = call.info.signature.param_count + 1u; i + 1 < call.operands.size(); i += 2) {
+      if (call.operands[i + 1].planes.step && text_of(call.run, call.operands[i].planes) == "samples")
+        differing_.push_back(i + 1);
+    }
+  }
+
+  void run(GridOp look_up) {
+    if (differing_.empty() || !call_.operands[0].planes.step) return look_up(call_);
+    const ShaderRun& run = call_.run;
+    std::map<std::vector<float>, std::vector<MaskWord>, std::less<>> groups;
+    mask_for_each(run.mask.current(), run.points, [&](size_t point) {
+      std::vector<MaskWord>& mask = groups[key(point)];
+      mask.resize(run.mask.words());
+      mask[point / kMaskWordLanes] |= MaskWord{1} << point % kMaskWordLanes;
+    });
+    const auto planes = static_cast<size_t>(components(call_.operands[0].type));
+    result_.resize(planes * run.pitch + kMaxLanes);
+    for (const auto& [values, mask] : groups) {
+      look_up_some(look_up, values, mask);
+      for (size_t c = 0; c < planes; ++c)
+        mask_for_each(mask.data(), run.points, [&](size_t point) {
+          call_.operands[0].planes.plane(c)[point] = result_[c * run.pitch + point];
+        });
+    }
+  }
+
+private:
+  /// What a point has of the operands that differ: handles of names, numbers of samples, in whole ones.
+  std::vector<float> key(size_t point) const {
+    std::vector<float> out;
+    for (size_t i : differing_) {
+      const float value = call_.operands[i].planes.data[point];
+      if (i == 1)
+        out.push_back(static_cast<float>(std::bit_cast<uint32_t>(value)));
+      else
+        out.push_back(std::isfinite(value) ? std::max(std::round(value), 0.0f) : 0.0f);
+    }
+    return out;
+  }
+
+  void look_up_some(GridOp look_up, const std::vector<float>& values, const std::vector<MaskWord>& mask) {
+    std::vector<GridOperand> operands(call_.operands.begin(), call_.operands.end());
+    operands[0].planes = {result_.data(), call_.run.pitch, 1, 1};
+    std::vector<std::array<float, kMaxLanes>> uniform(differing_.size());
+    for (size_t k = 0; k < differing_.size(); ++k) {
+      const bool name = differing_[k] == 1;
+      uniform[k].fill(name ? std::bit_cast<float>(static_cast<uint32_t>(values[k])) : values[k]);
+      operands[differing_[k]].planes = {uniform[k].data(), kMaxLanes, 0, 1};
+    }
+    call_.run.mask.push_if(mask.data());
+    look_up({call_.run, call_.info, operands, call_.level, call_.code});
+    call_.run.mask.pop_if();
+  }
+
+  const GridCall& call_;
+  std::vector<size_t> differing_; ///< operands: the name, the value of "samples"
+  std::vector<float> result_;
+};
+
+} // namespace
+
+namespace grid_ops {
+
+void texture_lookup(const GridCall& call) {
+  AlikePoints(call).run(look_up_texture);
+}
+void environment_lookup(const GridCall& call) {
+  AlikePoints(call).run(look_up_environment);
+}
+void shadow_lookup(const GridCall& call) {
+  AlikePoints(call).run(look_up_shadow);
 }
 
 // Operands: result, value stored, map, field, value before.

@@ -19,10 +19,11 @@ surface s(uniform float k = u; // expect-error: varying value cannot be stored i
   out = s; // expect-error: cannot be stored in the uniform variable 'out'
   fine = pnoise(s, inferred);
   fine += pnoise(s, s); // expect-error: 'period' of 'pnoise' must be uniform
-  fine += float texture(name, s, t, "samples", s); // expect-error: the value of "samples" must be uniform
+  fine += float texture(name, s, t, "fill", s); // expect-error: the value of "fill" must be uniform
   fine += counted(s) + fixed(s) + once + k;
   string chosen = "a.tex";
   if (s > 0.5) chosen = "b.tex";
-  fine += float texture(chosen, s, t); // expect-error: 'name' of 'texture' must be uniform
+  fine += float texture(chosen, s, t, "samples", s); // one lookup for each name and number of samples
+  fine += comp(photonmap(chosen, P), 0); // expect-error: 'file' of 'photonmap' must be uniform
   Ci = fine + a;
 }

@@ -21,5 +21,5 @@ surface promises(uniform float k = s) { // expect-error: a varying value cannot 
   uniform float x = noise(P); // expect-error: a varying value cannot be stored in the uniform variable 'x': declare it 'varying'
   string name = "a";
   if (s > 0.5) name = "b";
-  Ci = texture(name) * k * x; // expect-error: 'name' of 'texture' must be uniform; this value is varying
+  Ci = photonmap(name, P) * k * x; // expect-error: 'file' of 'photonmap' must be uniform; this value is varying
 }

@@ -15,9 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 BlobbyField field(std::vector<int> code, std::vector<float> floats) {
-  auto f = BlobbyField::make(code, floats);
-  EXPECT_TRUE(bool(f)) << (f ? "" : f.error());
-  return f ? *f : BlobbyField();
+  return BlobbyField::make(code, floats, [](const std::string& text) { ADD_FAILURE() << text; });
 }
 
 /// Unit sphere matrices at x = 0 and x = 1, then a constant 0.25.
@@ -217,13 +215,15 @@ TEST(Blobby, a_ground_keeps_the_surface_off) {
   // A ball of radius 2 (half of it seen) sinks into the slope, which repels within 0.8 of it.
   auto ground = std::make_shared<BlobbyGround>(slope());
   std::vector<float> numbers{4, 0, 0, 0, 0, 4, 0, 0, 0, 0, 4, 0, -2, 0, 0.5f, 1, 0.8f, 0.01f, 0.3f, 0.2f};
-  auto made = BlobbyField::make(std::vector<int>{1001, 0, 1003, 7, 16, 0, 2, 0, 1}, numbers, [&](int string) {
-    EXPECT_EQ(string, 7);
-    return ground;
-  });
-  ASSERT_TRUE(made);
+  const BlobbyField made = BlobbyField::make(
+      std::vector<int>{1001, 0, 1003, 7, 16, 0, 2, 0, 1}, numbers,
+      [](const std::string& text) { ADD_FAILURE() << text; },
+      [&](int string) {
+        EXPECT_EQ(string, 7);
+        return ground;
+      });
   Scene s;
-  add_blobby(*made, 0, {}, std::make_shared<PrimitiveState>(), s.primitives);
+  add_blobby(made, 0, {}, std::make_shared<PrimitiveState>(), s.primitives);
   ASSERT_FALSE(s.primitives.empty());
   int near = 0, free = 0;
   visit(s, [&](Vec3 P, Vec3) {
@@ -252,14 +252,65 @@ TEST(Blobby, the_picture_is_a_disc) {
   EXPECT_NEAR(r.covered(), kPi * 1600, kPi * 16);
 }
 
+TEST(Blobby, mpoints_are_where_the_leaves_would_be) {
+  // Two leaves, of which the second one is scaled and moved; in the other pose both are unit spheres, at x =
+  // 5 and x = 9.
+  const std::string rib = "Blobby 2 [1001 0 1001 16 0 2 0 1] [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 "
+                          "2 0 0 0 0 2 0 0 0 0 2 0 1 0 0 1] [\"\"] \"vertex mpoint Pref\" "
+                          "[1 0 0 0 0 1 0 0 0 0 1 0 5 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 9 0 0 1]";
+  Scene s = scene_of(rib);
+  ASSERT_FALSE(s.primitives.empty());
+  for (const Primitive& p : s.primitives) {
+    SurfaceLattice l;
+    float zero = 0;
+    p.geometry->evaluate({{&zero, 1}, {&zero, 1}}, l);
+    const glm::dvec3 at(l.P[0]), second = (at - glm::dvec3(1, 0, 0)) / 2.0;
+    const double a = sphere(glm::length(at)), b = sphere(glm::length(second));
+    const glm::dvec3 expected =
+        (a * (at + glm::dvec3(5, 0, 0)) + b * (second + glm::dvec3(9, 0, 0))) / (a + b);
+    ASSERT_EQ(p.vars.size(), 1u);
+    const PatchVar var = p.vars[0];
+    EXPECT_EQ(var.type, slvm::Type::kPoint);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(var.values[static_cast<size_t>(c)], expected[c], 1e-4);
+  }
+  EXPECT_THAT(
+      messages_of("WorldBegin Sphere 1 -1 1 360 \"vertex mpoint Pref\" [1] WorldEnd"),
+      HasSubstr("error: Sphere: \"Pref\" is an mpoint: a Blobby has these, one vertex value for each leaf"));
+  EXPECT_THAT(messages_of("Attribute \"user\" \"uniform mpoint m\" [1]"),
+              HasSubstr("\"m\" is an mpoint: only a Blobby has these"));
+}
+
+TEST(Blobby, what_is_wrong_leaves_the_rest) {
+  glm::dvec3 p(0.3, 0.1, 0);
+  const double a = sphere(std::hypot(0.3, 0.1)), b = sphere(std::hypot(0.7, 0.1));
+  auto value = [&](std::vector<int> code, std::string expected) {
+    std::string said;
+    const BlobbyField f =
+        BlobbyField::make(code, kNumbers, [&](const std::string& text) { said += text + "\n"; });
+    EXPECT_THAT(said, HasSubstr(expected));
+    return f.at(p);
+  };
+  // A plug-in has five operands; it counts as a leaf. So does one without its numbers.
+  EXPECT_NEAR(value({1001, 0, 1004, 0, 8, 0, 0, 0, 1001, 16, 0, 3, 0, 1, 2}, "plug-in"), a + b, 1e-12);
+  EXPECT_NEAR(value({1001, 0, 1001, 30, 1001, 16, 2, 3, 0, 1, 2}, "takes 16 numbers"), std::max(a, b), 1e-12);
+  EXPECT_NEAR(value({1001, 0, 9000, 4, 0, 16, 1, 32, 1001, 16, 0, 3, 0, 1, 2}, "code 9000 is a plug-in"),
+              a + b, 1e-12);
+  EXPECT_NEAR(value({1001, 0, 9000, 4, 0}, "code 9000 ends early"), a, 1e-12);
+  // How long an unknown code is nobody knows: what stands before, used by no operator, is added up.
+  EXPECT_NEAR(value({1001, 0, 1001, 16, 0, 2, 0, 1, 9001, 3, 1, 0, 1}, "unknown code 9001"), a + b, 1e-12);
+  EXPECT_NEAR(value({1001, 0, 1001, 16, 9001, 0, 0, 2, 0, 1}, "unknown code 9001"), a + b, 1e-12);
+}
+
 TEST(Blobby, messages) {
   auto message = [](const std::string& arguments) {
     return messages_of("WorldBegin Blobby " + arguments + " [\"\"] WorldEnd");
   };
   EXPECT_THAT(
       message("1 [1001 0] [1 2]"),
-      HasSubstr("error: Blobby: a leaf of code 1001 takes 16 numbers; there are 2 from its index on"));
-  EXPECT_THAT(message("1 [1001] []"), HasSubstr("a leaf of code 1001 has no index of its numbers"));
+      HasSubstr("warning: Blobby: a leaf of code 1001 takes 16 numbers; there are 2 from its index on; its "
+                "field is 0"));
+  EXPECT_THAT(message("1 [1001] []"), HasSubstr("a leaf of code 1001 ends early; what follows is not read"));
   EXPECT_THAT(message("1 [1001 0] [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]"),
               HasSubstr("the matrix of a leaf of code 1001 has no inverse"));
   EXPECT_THAT(message("1 [1001 0] [1e99 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0]"),
@@ -269,11 +320,16 @@ TEST(Blobby, messages) {
   EXPECT_THAT(message("1 [1000 0 0 2 0] [1]"), HasSubstr("operator 0 ends before its operands"));
   EXPECT_THAT(message("1 [1000 0 6 1] [1]"),
               HasSubstr("operator 6 uses result 1, which does not precede it"));
-  EXPECT_THAT(message("1 [1000 0 12] [1]"), HasSubstr("unknown code 12"));
+  EXPECT_THAT(
+      message("1 [1000 0 12] [1]"),
+      HasSubstr(
+          "warning: Blobby: unknown code 12; what follows is not read, what stands before is added up"));
+  EXPECT_THAT(message("1 [1000 7] [1]"),
+              HasSubstr("a leaf of code 1000 has its numbers from 7 on, and there are 1; its field is 0"));
   EXPECT_THAT(message("2 [1000 0] [1]"),
               HasSubstr("warning: Blobby: 'nleaf' is 2, but the code has 1 leaves, and that counts"));
   EXPECT_THAT(message("1 [1004 0 0 0 0 0] [1]"),
-              HasSubstr("a leaf of code 1004 is a plug-in, and these are not supported"));
+              HasSubstr("a leaf of code 1004 is a plug-in, and these are not supported; its field is 0"));
   EXPECT_THAT(message("1 [1003 3 0] [1 1 1 1]"),
               HasSubstr("a ground has the file 3 of 1; the ground has no effect"));
   EXPECT_THAT(message("1 [1003 0 0] [1 1 1 1]"),

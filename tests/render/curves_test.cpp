@@ -146,12 +146,36 @@ TEST(Points, cover_their_area) {
   EXPECT_NEAR(r.covered(), kPi * 1600, kPi * 16);
 }
 
+TEST(Curves, a_bad_curve_is_left_out_alone) {
+  const std::string first = "0 0 0 1 0 0 2 0 0 3 0 0 ", last = "0 1 0 1 1 0 2 1 0 3 1 0 ";
+  Rendered r = render_text("Format 4 4 1 WorldBegin\nCurves \"cubic\" [4 3 4 4] \"nonperiodic\" \"P\" [" +
+                           first + "7 7 7 7 7 7 7 7 7 0 0 0 1e39 0 0 1 0 0 2 0 0 " + last +
+                           "] \"uniform float f\" [3 9 9 4] \"varying float y\" [0 1 9 9 9 9 5 6] "
+                           "\"vertex float x\" [0 1 2 3 9 9 9 9 9 9 9 4 5 6 7] WorldEnd");
+  EXPECT_THAT(r.messages,
+              HasSubstr(":2:16: warning: Curves: 2 of 4 curves cannot be drawn and are left out; the "
+                        "first, curve 1, counted from 0, has 3 points, where 4 are needed"));
+  ASSERT_EQ(r.scene.primitives.size(), 2u);
+  const Primitive& other = r.scene.primitives[1];
+  expect_near(at(other, 0.5f, 0.5f).P, {1.5f, 1, 0});
+  EXPECT_FLOAT_EQ(value(other, "f", 0, 0), 4);
+  EXPECT_FLOAT_EQ(value(other, "y", 0.2f, 0.5f), 5.5f);
+  EXPECT_FLOAT_EQ(value(other, "x", 0.2f, 0.5f), 5.5f);
+  EXPECT_THAT(
+      messages_of("WorldBegin Curves \"linear\" [2 2] \"nonperiodic\" \"P\" [0 0 0 1 0 0 0 1 0 1e39 0 0] "
+                  "WorldEnd"),
+      HasSubstr("curve 1, counted from 0, has a point that is not finite, 1"));
+}
+
 TEST(Curves, messages) {
   auto message = [](const std::string& rib) { return messages_of("WorldBegin " + rib + " WorldEnd"); };
   EXPECT_THAT(message("Curves \"spiral\" [4] \"periodic\""),
               HasSubstr("error: Curves: unknown type \"spiral\"; expected \"linear\" or \"cubic\""));
-  EXPECT_THAT(message("Curves \"cubic\" [3] \"periodic\" \"P\" [0 0 0 1 1 1 2 2 2]"),
-              HasSubstr("a cubic curve has at least 4 points, found 3"));
+  EXPECT_THAT(
+      message("Curves \"cubic\" [3] \"periodic\" \"P\" [0 0 0 1 1 1 2 2 2]"),
+      HasSubstr("1 of 1 curves cannot be drawn and is left out; curve 0, counted from 0, has 3 points, "
+                "where 4 are needed"));
+  EXPECT_THAT(message("Curves \"linear\" [-1] \"nonperiodic\" \"P\" []"), HasSubstr("a curve has -1 points"));
   EXPECT_THAT(message("Points \"width\" []"), HasSubstr("Points: \"P\" is missing"));
 }
 

@@ -267,10 +267,15 @@ TEST(Interpreter, values_out_of_range) {
 TEST(Interpreter, geometry_that_cannot_be) {
   auto in_world = [](const std::string& rib) { return messages_of("WorldBegin " + rib + " WorldEnd"); };
   const std::pair<const char*, const char*> kCases[] = {
-      {"Sphere 0 -1 1 360", "Sphere: the radius is zero: there is no surface"},
-      {"Sphere 1 -1 1 0", "Sphere: thetamax is zero: there is no surface"},
-      {"Sphere 1 1 1 360", "Sphere: zmin equals zmax: there is no surface"},
-      {"Paraboloid 1 -1 1 360", "Paraboloid: zmin and zmax lie on two sides of the apex"},
+      {"Sphere 0 -1 1 360",
+       "warning: Sphere: the radius is zero; nothing is drawn, here and wherever it is so"},
+      {"Sphere 1 -1 1 0", "warning: Sphere: thetamax is zero; nothing is drawn"},
+      {"Sphere 1 1 1 360", "warning: Sphere: zmin equals zmax; nothing is drawn"},
+      {"Paraboloid 1 -1 0 360",
+       "warning: Paraboloid: zmax is zero; a paraboloid has its apex there; nothing"},
+      {"Cylinder 1 2 2 360", "warning: Cylinder: zmin equals zmax; nothing is drawn"},
+      {"Torus 1 0 0 360 360", "warning: Torus: the minor radius is zero; nothing is drawn"},
+      {"Hyperboloid 1 0 0 1 0 0 360", "warning: Hyperboloid: its two points are the same; nothing is drawn"},
       {"Sphere 1 -1 1 360 \"Cs\" [1 0 0 1 0 0]",
        "error: Sphere: \"Cs\" (varying color) takes 12 numbers, found 6"},
       {"Sphere 1 -1 1 360 \"Cs\" [1 0 0]",
@@ -286,10 +291,15 @@ TEST(Interpreter, geometry_that_cannot_be) {
       {"Polygon \"N\" [0 0 1]", "Polygon: \"P\" is missing"},
       {"Polygon \"P\" [0 0 0 1 1 1]", "a polygon has at least 3 vertices, found 2"},
       {"PointsPolygons [2 3] [0 1 0 1 2] \"P\" [0 0 0 1 1 1 0 1 0]",
-       "warning: PointsPolygons: 1 of 2 faces have fewer than 3 vertices and are left out"},
+       "warning: PointsPolygons: 1 of 2 faces cannot be drawn and is left out; face 0, counted from 0, has 2 "
+       "vertices"},
       {"PointsPolygons [3] [0 1] \"P\" [0 0 0 1 1 1]", "'nvertices' asks for 3 vertex numbers, found 2"},
-      {"PointsPolygons [3] [0 1 -2] \"P\" [0 0 0]", "-2 is not a vertex number; these start at 0"},
-      {"PointsPolygons [3] [0 1 2] \"P\" [0 0 0]", "\"P\" (vertex point) takes 9 numbers, found 3"},
+      {"PointsPolygons [3] [0 0 -2] \"P\" [0 0 0]",
+       "face 0, counted from 0, has the vertex -2, and there are 1"},
+      {"PointsPolygons [3 3] [0 1 2 2 1 0] \"P\" [0 0 0]",
+       "warning: PointsPolygons: 2 of 2 faces cannot be drawn and are left out; the first, face 0, counted "
+       "from "
+       "0, has the vertex 1, and there are 1"},
       {"Patch \"bicubic\" \"P\" [0 0 0]", "\"P\" (vertex point) takes 48 numbers, found 3"},
       {"Patch \"cubic\" \"P\" [0 0 0]", "unknown type \"cubic\""},
   };

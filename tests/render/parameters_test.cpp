@@ -143,5 +143,38 @@ TEST(Parameters, hiders_that_are_not_there) {
   EXPECT_THAT(messages_of("MakeOcclusion [\"a.z\"] \"a.occ\""), HasSubstr("no occlusion map is made"));
 }
 
+TEST(Parameters, of_later_releases) {
+  const std::string layer = "ShaderLayer \"surface\" \"wood\" \"a\" \"float k\" [1] ";
+  const std::string said = messages_of("WorldBegin " + layer + layer +
+                                       "Sides 2 "
+                                       "ConnectShaderLayers \"surface\" \"a\" \"k\" \"b\" \"k\" WorldEnd");
+  const std::string text = "ShaderLayer is of later releases and is skipped: shaders are not put together of "
+                           "layers; the last Surface, Displacement ... counts";
+  EXPECT_THAT(said, HasSubstr(text));
+  EXPECT_EQ(said.find(text), said.rfind(text));
+  EXPECT_THAT(said, HasSubstr("ConnectShaderLayers is of later releases"));
+  const std::string model = "Attribute \"photon\" \"string shadingmodel\" ";
+  const std::string volume = messages_of(model + "\"isotropic\" " + model + "\"isotropic\"");
+  EXPECT_THAT(volume, HasSubstr("warning: Attribute: \"shadingmodel\" \"isotropic\" is not known; known are "
+                                "\"matte\", \"translucent\""));
+  EXPECT_EQ(volume.find("isotropic"), volume.rfind("\"isotropic\" is not known") + 1);
+  EXPECT_EQ(messages_of(model + "\"refractive:ior=1.4\" " + model + "\"dielectric\""), "");
+  EXPECT_THAT(messages_of(model + "\"glass:ior=0.4\""), HasSubstr("has an index of refraction of 1 or more"));
+}
+
+TEST(Parameters, deep_shadow_maps_become_shadow_maps_and_appended_ones_are_told) {
+  const Rendered r = render_text("Display \"a.dsm\" \"deepshad\" \"deepopacity\" WorldBegin WorldEnd");
+  EXPECT_THAT(r.messages,
+              HasSubstr("Display \"deepshad\": maps of more than one depth are not made; a shadow map of "
+                        "the first opaque surfaces is, and what is transparent casts no shadow"));
+  ASSERT_EQ(r.scene.options.displays.size(), 1u);
+  EXPECT_EQ(r.scene.options.displays[0].type, "shadow");
+  EXPECT_EQ(r.scene.options.displays[0].mode, "z");
+  EXPECT_THAT(
+      messages_of("Display \"a.z\" \"shadow\" \"z\" \"float append\" [1]"),
+      HasSubstr("\"append\" has no effect: files hold one picture: the last one stays; give each a name of "
+                "its own"));
+}
+
 } // namespace
 } // namespace render::testing

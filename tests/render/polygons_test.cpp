@@ -162,10 +162,51 @@ TEST(Polygons, empty_meshes_and_faces_without_area) {
   // A point and an edge among the faces: the square keeps its own uniform value. They are warned of.
   Rendered r = render_text("Format 4 4 1 WorldBegin PointsPolygons [1 4 2 0] [0 0 1 2 3 1 2] \"P\" "
                            "[0 0 0 2 0 0 2 2 0 0 2 0] \"uniform float id\" [1 2 3 4] WorldEnd");
-  EXPECT_THAT(r.messages, HasSubstr("3 of 4 faces have fewer than 3 vertices and are left out"));
+  EXPECT_THAT(r.messages,
+              HasSubstr("3 of 4 faces cannot be drawn and are left out; the first, face 0, counted from "
+                        "0, has 1 vertex"));
   double id = 0;
   EXPECT_NEAR(area_of(r.scene, "id", &id), 4, 1e-6);
   EXPECT_NEAR(id, 4 * 2, 1e-6);
+}
+
+TEST(Polygons, a_bad_face_is_left_out_alone) {
+  // A vertex that does not exist, a point that is no number, and two squares, by whatever list of faces.
+  const std::string p = " \"P\" [0 0 0 2 0 0 2 2 0 0 2 0 5 5 0 1e39 0 0 5 7 0 3 7 0] "
+                        "\"uniform float id\" [1 2 3 4] \"facevarying float f\" "
+                        "[1 1 1 1 7 7 7 9 9 9 2 2 2 2] ";
+  for (const std::string& list :
+       {std::string("PointsPolygons "), std::string("PointsGeneralPolygons [1 1 1 1] "),
+        std::string("SubdivisionMesh \"bilinear\" ")}) {
+    const bool subdivision = list.starts_with("Sub");
+    Rendered r = render_text("Format 4 4 1 WorldBegin " + list + "[4 3 3 4] [0 1 2 3 0 1 8 0 1 5 1 4 6 2] " +
+                             (subdivision ? "[\"interpolateboundary\"] [0 0] [] []" : "") + p + " WorldEnd");
+    EXPECT_THAT(r.messages, HasSubstr(":1:")); // the line
+    EXPECT_THAT(r.messages, HasSubstr("2 of 4 faces cannot be drawn and are left out; the first, face 1, "
+                                      "counted from 0, has the vertex 8, and there are 8"));
+    double id = 0, f = 0;
+    const double area = area_of(r.scene, "id", &id);
+    area_of(r.scene, "f", &f);
+    // N of subdivision surfaces has length 1: each face counts 1.
+    const double first = subdivision ? 1 : 4, other = area - first;
+    EXPECT_GT(other, 0.9) << list;
+    EXPECT_NEAR(id, first * 1 + other * 4, 1e-4) << list;
+    EXPECT_NEAR(f, first * 1 + other * 2, 1e-4) << list;
+  }
+  Rendered nan =
+      render_text("Format 4 4 1 WorldBegin PointsPolygons [3] [0 1 2] \"P\" [0 0 0 1e39 0 0 0 1 0] "
+                  "WorldEnd");
+  EXPECT_THAT(nan.messages, HasSubstr("face 0, counted from 0, has a point that is not finite, 1"));
+}
+
+TEST(Subdivision, holes_are_those_of_the_faces_that_were_meant) {
+  Rendered r =
+      render_text("Format 4 4 1 WorldBegin SubdivisionMesh \"bilinear\" [2 4 4] [0 1 0 1 2 3 1 4 5 2] "
+                  "[\"interpolateboundary\" \"hole\"] [0 0 1 0] [1] [] \"uniform float id\" [1 2 3] "
+                  "\"P\" [0 0 0 1 0 0 1 1 0 0 1 0 3 0 0 3 1 0] WorldEnd");
+  double id = 0;
+  EXPECT_NEAR(area_of(r.scene, "id", &id), 1, 1e-5); // one face, each of which counts 1
+  EXPECT_NEAR(id, 3, 1e-5);
 }
 
 TEST(Polygons, messages_of_general_polygons) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -100,7 +101,31 @@ TEST_F(Procedurals, one_may_make_others_but_not_for_ever) {
   EXPECT_EQ(world("Procedural \"DelayedReadArchive\" [\"a.rib\"] [-1 1 -1 1 0 1]"), 2u);
   file("c.rib", "Procedural \"DelayedReadArchive\" [\"c.rib\"] [-1 1 -1 1 0 1]");
   world("Procedural \"DelayedReadArchive\" [\"c.rib\"] [-1 1 -1 1 0 1]");
-  EXPECT_THAT(messages(), HasSubstr("procedurals come out of each other more than 64 deep"));
+  EXPECT_THAT(messages(),
+              HasSubstr("procedurals come out of each other more than 64 deep, and goes no further; one "
+                        "that contains itself needs an end: DetailRange, or IfBegin with a count that it "
+                        "keeps in Attribute \"user\""));
+}
+
+TEST_F(Procedurals, one_that_doubles_itself_for_ever_is_ended_soon_and_once) {
+  const std::string itself = "Procedural \"DelayedReadArchive\" [\"d.rib\"] [-1 1 -1 1 0 1] ";
+  file("d.rib", "Disk 0 1 360 " + itself + itself);
+  const auto begin = std::chrono::steady_clock::now();
+  world(itself);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+  const std::string said = messages();
+  EXPECT_THAT(said, HasSubstr("Procedural: DelayedReadArchive \"d.rib\": "));
+  EXPECT_THAT(said, HasSubstr("needs an end"));
+  EXPECT_EQ(said.find("needs an end"), said.rfind("needs an end"));
+  // One that ends itself is not meant, nor the same once more in another world.
+  file("e.rib", "Disk 0 1 360 IfBegin \"$user:n != 'xxx'\" "
+                "IfBegin \"$user:n == 'xx'\" Attribute \"user\" \"string n\" \"xxx\" IfEnd "
+                "IfBegin \"$user:n == 'x'\" Attribute \"user\" \"string n\" \"xx\" IfEnd "
+                "Procedural \"DelayedReadArchive\" [\"e.rib\"] [-1 1 -1 1 0 1] "
+                "Procedural \"DelayedReadArchive\" [\"e.rib\"] [-1 1 -1 1 0 1] IfEnd");
+  EXPECT_EQ(world("Attribute \"user\" \"string n\" \"x\" Procedural \"DelayedReadArchive\" [\"e.rib\"] "
+                  "[-1 1 -1 1 0 1]"),
+            7u);
 }
 
 TEST_F(Procedurals, blocks_stay_inside) {

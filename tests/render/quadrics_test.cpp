@@ -133,5 +133,18 @@ TEST(Quadrics, bounds_hold_all_points_and_are_tight) {
   }
 }
 
+TEST(Quadrics, those_without_a_surface_are_told_once_and_a_paraboloid_begins_at_its_apex) {
+  testing::Rendered r = testing::render_text(
+      "Format 4 4 1 WorldBegin Sphere 0 0 0 360 Sphere 0 0 0 360 Cylinder 0 1 2 360 WorldEnd");
+  EXPECT_EQ(r.scene.primitives.size(), 0u);
+  const std::string said = "Sphere: the radius is zero; nothing is drawn, here and wherever it is so";
+  EXPECT_NE(r.messages.find(said), std::string::npos);
+  EXPECT_EQ(r.messages.find(said), r.messages.rfind(said));
+  EXPECT_EQ(r.messages.find("error"), std::string::npos);
+  Scene s = testing::scene_of("Paraboloid 1 -1 4 360");
+  testing::expect_near(testing::at(s.primitives[0], 0, 0).P, {0, 0, 0});
+  testing::expect_near(testing::at(s.primitives[0], 0, 1).P, {1, 0, 4});
+}
+
 } // namespace
 } // namespace render

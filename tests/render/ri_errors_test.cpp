@@ -126,9 +126,9 @@ TEST_F(RiErrors, counts) {
             "42 2: RiGeneralPolygon: the number of elements of 'nvertices' is -2");
   EXPECT_EQ(both([&] { RiSphereV(1, -1, 1, 360, -3, nullptr, nullptr); }),
             "42 2: RiSphere: the number of parameters is -3");
-  RtInt two[1] = {2};
-  EXPECT_EQ(both([&] { RiCurves(RI_CUBIC, 1, two, RI_NONPERIODIC, RI_NULL); }),
-            "43 2: RiCurves: a cubic curve has at least 4 points, found 2");
+  RtInt none[1] = {-2};
+  EXPECT_EQ(both([&] { RiCurves(RI_CUBIC, 1, none, RI_NONPERIODIC, RI_NULL); }),
+            "43 2: RiCurves: a curve has -2 points");
   EXPECT_EQ(both([&] { RiPatchMesh(RI_BICUBIC, 3, RI_PERIODIC, 4, RI_PERIODIC, RI_NULL); }),
             "43 2: RiPatchMesh: nu is 3; a bicubic mesh has at least 4");
   EXPECT_EQ(both([&] { RiPatchMesh(RI_BICUBIC, 4, "wrapped", 4, RI_PERIODIC, RI_NULL); }),

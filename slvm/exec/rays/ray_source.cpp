@@ -64,7 +64,7 @@ void RaySource::read_points(const ShaderRun& run, const RaySpec& spec, uint32_t 
     const float asked = spec.samples.at(from);
     samples[i] = spec.may_be_none && asked < 0.5f ? 0 : sample_count(asked);
     most_samples_ = std::max(most_samples_, samples[i]);
-    const uint32_t seed = point_seed(run.state.grid->id, call_seed, point[i]);
+    const uint32_t seed = point_seed(run.random_seed(), call_seed, point[i]);
     for (SampleUse use : {SampleUse::kTurn, SampleUse::kRadius})
       seeds[static_cast<size_t>(use)][i] = scramble_seed(seed, use);
     if (limited) max_distance[i] = spec.max_distance.at(from);
@@ -136,7 +136,7 @@ void RaySource::read_differences(const GridCall& call, const RaySpec& spec, uint
     seeds[static_cast<size_t>(use)].resize(base.size());
   for (size_t i = 0; i < base.size(); ++i) {
     base[i] = std::clamp(spec.sample_base.at(point[i]), 0.0f, 1.0f);
-    const uint32_t seed = point_seed(call.run.state.grid->id, call_seed, point[i]);
+    const uint32_t seed = point_seed(call.run.random_seed(), call_seed, point[i]);
     for (SampleUse use : {SampleUse::kBaseU, SampleUse::kBaseV})
       seeds[static_cast<size_t>(use)][i] = scramble_seed(seed, use);
   }

@@ -101,7 +101,7 @@ public:
   /// Seen from `from`; distant lights are far away.
   float component(size_t point, size_t c, float from) const {
     constexpr float kFar = 1e6f;
-    if (!inside_) return own_[c];
+    if (!inside_) return run_.on_emitter ? run_.on_emitter->variable(Global::kP).get(c, point) : own_[c];
     const float to_light = (in_light_ ? -1.0f : 1.0f) * l_->get(c, point);
     return from + (distant_ ? kFar : 1.0f) * to_light;
   }

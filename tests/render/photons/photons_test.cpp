@@ -208,6 +208,11 @@ TEST_F(PhotonFrame, what_surfaces_do) {
   // A pane: enters, and leaves by total reflection or refraction; a little is reflected.
   EXPECT_NEAR(static_cast<double>(count("glass")) / static_cast<double>(all), 0.96, 0.01);
   EXPECT_NEAR(static_cast<double>(count("water")) / static_cast<double>(all), 0.98, 0.01);
+  // Other indices of refraction, in the model or beside it: ((n - 1) / (n + 1))^2 is reflected.
+  EXPECT_NEAR(static_cast<double>(count("refractive:ior=1.333")) / static_cast<double>(all), 0.98, 0.01);
+  EXPECT_NEAR(static_cast<double>(count("glass", "Attribute \"photon\" \"float ior\" 2 ")) /
+                  static_cast<double>(all),
+              0.889, 0.01);
   // Half of what is scattered goes down.
   EXPECT_NEAR(static_cast<double>(count("translucent", "Attribute \"trace\" \"int maxdiffusedepth\" 1 ")) /
                   static_cast<double>(all),
