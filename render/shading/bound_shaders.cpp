@@ -69,7 +69,7 @@ class BoundShaders::Binder {
 public:
   explicit Binder(BoundShaders& out) : out_(out) {}
 
-  void bind_all(std::span<const Primitive> primitives);
+  void bind_all(const PrimitiveList& primitives);
   const slvm::Instance* bind(const std::shared_ptr<const ShaderRequest>& request);
 
 private:
@@ -96,17 +96,22 @@ private:
 };
 
 /// Sets of attributes with an instance that was bound too narrowly are bound again.
-void BoundShaders::Binder::bind_all(std::span<const Primitive> primitives) {
-  const VarSource* last = nullptr; // the faces of a mesh have the same variables
-  for (const Primitive& p : primitives) {
-    if (p.vars.source() == last) continue;
-    last = p.vars.source();
-    for (const PatchVar& v : p.vars)
-      variables_.insert(v.name);
+void BoundShaders::Binder::bind_all(const PrimitiveList& primitives) {
+  std::set<const Pieces*> known;
+  for (const PrimitiveList::Run& run : primitives.runs()) {
+    if (!known.insert(run.pieces.get()).second) continue;
+    const VarSource* last = nullptr; // the faces of a mesh have the same variables
+    for (uint32_t k = 0; k < run.count; ++k) {
+      const Primitive p = run.primitive(k);
+      if (p.vars.source() == last) continue;
+      last = p.vars.source();
+      for (const PatchVar& v : p.vars)
+        variables_.insert(v.name);
+    }
   }
   std::set<const Attributes*> seen;
-  for (const Primitive& p : primitives) {
-    const std::shared_ptr<const Attributes>& a = p.state->attributes;
+  for (const PrimitiveList::Run& run : primitives.runs()) {
+    const std::shared_ptr<const Attributes>& a = run.state->attributes;
     if (!seen.insert(a.get()).second) continue;
     auto bound = bind(a);
     auto it = out_.attributes_.find(a.get());
@@ -276,7 +281,7 @@ BoundShaders::BoundShaders(const Scene& scene, const slvm::Machine& machine, Sha
   Binder(*this).bind(scene.options.imager);
 }
 
-void BoundShaders::add(std::span<const Primitive> primitives) {
+void BoundShaders::add(const PrimitiveList& primitives) {
   Binder(*this).bind_all(primitives);
 }
 

@@ -57,7 +57,7 @@ public:
   BoundShaders(const Scene& scene, const slvm::Machine& machine, ShaderCache& cache,
                slvm::Diagnostics& diagnostics);
   /// Binds what further primitives refer to. One call at a time; other threads may go on asking.
-  void add(std::span<const Primitive> primitives);
+  void add(const PrimitiveList& primitives);
 
   /// Never null for attributes of the scene. What it points to stays.
   const BoundAttributes* find(const Attributes* attributes) const;

@@ -113,14 +113,19 @@ void Interpreter::subdivision_mesh(const RequestCall& call) {
   mesh.vertices = call.integers(2);
   auto sizes = sizes_of(call);
   if (!sizes || mesh.nvertices.empty()) return; // exporters write empty meshes
-  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
-  std::vector<Vec3> P;
-  if (!take_positions(call, vars, P) || !subdivision_tags(call, sizes->vertex, mesh)) return;
-  auto made = add_subdivision(mesh, P, vars, primitive_state(), scene_.primitives);
-  if (!made)
-    error(call, made.error());
-  else if (*made == 0)
-    warn(call, "no face has a surface; a mesh with an open boundary needs the tag \"interpolateboundary\"");
+  add_mesh(call, [&]() -> std::shared_ptr<const Pieces> {
+    std::vector<TypedParam> vars = primitive_vars(call, *sizes);
+    std::vector<Vec3> P;
+    if (!take_positions(call, vars, P) || !subdivision_tags(call, sizes->vertex, mesh)) return nullptr;
+    auto made = make_subdivision(mesh, P, vars);
+    if (!made) {
+      error(call, made.error());
+      return nullptr;
+    }
+    if ((*made)->count() == 0)
+      warn(call, "no face has a surface; a mesh with an open boundary needs the tag \"interpolateboundary\"");
+    return *made;
+  });
 }
 
 } // namespace render
