@@ -75,10 +75,10 @@ std::string format_json(const FrameStatistics& s) {
       "\"rays\":{{\"all\":{},\"shadow\":{},\"hemisphere\":{},\"hemispheres\":{},\"hit_grids\":{},"
       "\"hit_points\":{},\"faces\":{},\"bytes\":{}}},\"shaders\":[{}]}}",
       FrameStatistics::kVersion, s.frame, s.width, s.height, s.samples_per_pixel, s.threads, s.bind_seconds,
-      s.render_seconds, s.write_seconds, r.primitives, r.split_primitives, r.grids, r.shaded_grids, r.micropolygons,
-      r.shaded_points, s.texture_files, s.texture_bytes, s.peak_bytes, s.rays.all(), s.rays.shadow_rays,
-      s.rays.hemisphere_rays, s.rays.hemispheres, s.rays.hit_grids, s.rays.hit_points, s.rays.geometry.faces,
-      s.rays.geometry.bytes, shaders);
+      s.render_seconds, s.write_seconds, r.primitives, r.split_primitives, r.grids, r.shaded_grids,
+      r.micropolygons, r.shaded_points, s.texture_files, s.texture_bytes, s.peak_bytes, s.rays.all(),
+      s.rays.shadow_rays, s.rays.hemisphere_rays, s.rays.hemispheres, s.rays.hit_grids, s.rays.hit_points,
+      s.rays.geometry.faces, s.rays.geometry.bytes, shaders);
 }
 
 long long peak_memory() {

@@ -1,5 +1,6 @@
 // The frame loop. Order of work:
-//   1. split: every primitive, in parallel, into GridTasks (a few dozen bytes each); but those of large meshes
+//   1. split: every primitive, in parallel, into GridTasks (a few dozen bytes each); but those of large
+//   meshes
 //      when a bucket comes to them (task_batch.h);
 //   2. bin: each bucket gets the list of tasks that may touch it, nearest first;
 //   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are

@@ -120,8 +120,8 @@ struct LazyBatch {
 /// one thread at a time.
 using ContentMaker = std::function<SceneContent(const Procedural&, float area)>;
 
-/// Whether the primitives of a request are so many that blocks of them are cut one by one. What bounds a solid
-/// is cut at once: all of it must be known.
+/// Whether the primitives of a request are so many that blocks of them are cut one by one. What bounds a
+/// solid is cut at once: all of it must be known.
 inline bool waits(const PrimitiveList::Run& run) {
   return run.count > Pieces::kBlock && !run.state->solid;
 }

@@ -31,8 +31,8 @@ struct PrimitiveState {
   SolidTree::NodeIndex solid_primitive = 0; ///< which
   LevelPart level; ///< the samples that see it, where a level of detail goes over into another
 
-  /// Of a box in object space, in camera space, displacement and motion included. Points go in straight lines:
-  /// what holds all keys holds all that is between them.
+  /// Of a box in object space, in camera space, displacement and motion included. Points go in straight
+  /// lines: what holds all keys holds all that is between them.
   Box camera_bound(const Box& shape) const {
     Box box = transform_box(object_to_camera, shape);
     for (const auto& key : motion)

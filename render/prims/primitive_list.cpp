@@ -16,8 +16,12 @@ std::span<const Box> Pieces::blocks() const {
   return blocks_;
 }
 
+/// Not larger than it must be where that is cheap.
 Box PrimitiveList::Run::camera_bound() const {
   Box box;
+  for (uint32_t k = 0; k < count && count <= Pieces::kBlock; ++k)
+    box.add(primitive(k).camera_bound({}));
+  if (!box.empty()) return box;
   for (size_t b = 0; b < pieces->blocks().size(); ++b)
     box.add(camera_bound(b));
   return box;

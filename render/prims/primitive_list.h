@@ -1,6 +1,6 @@
-// The surfaces of a scene, in order. What one request makes is kept as one thing: its state, and the pieces it
-// comes to, which instances of it share; a Primitive is put together when somebody asks for it. So a mesh of
-// millions of faces is a few arrays, and hundreds of instances of it are little more than that.
+// The surfaces of a scene, in order. What one request makes is kept as one thing: its state, and the pieces
+// it comes to, which instances of it share; a Primitive is put together when somebody asks for it. So a mesh
+// of millions of faces is a few arrays, and hundreds of instances of it are little more than that.
 #pragma once
 
 #include "render/prims/primitive.h"
@@ -124,7 +124,8 @@ private:
 /// variables. finish(k, primitive) sets what else they have.
 template <class Mesh, class Finish> class MeshPieces final : public Pieces {
 public:
-  MeshPieces(std::shared_ptr<Mesh> mesh, Finish finish) : mesh_(std::move(mesh)), finish_(std::move(finish)) {}
+  MeshPieces(std::shared_ptr<Mesh> mesh, Finish finish)
+      : mesh_(std::move(mesh)), finish_(std::move(finish)) {}
   uint32_t count() const override { return static_cast<uint32_t>(mesh_->patches().size()); }
   Primitive piece(uint32_t k) const override {
     Primitive p;

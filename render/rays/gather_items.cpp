@@ -71,9 +71,7 @@ private:
   using List = std::vector<uint32_t>; ///< of singles
 
   RayTraits traits_of(const Run&);
-  bool is_displaced(const Run& r) const {
-    return is_displaced_for_rays(r.primitive(0), out_.displacer_);
-  }
+  bool is_displaced(const Run& r) const { return is_displaced_for_rays(r.primitive(0), out_.displacer_); }
   void find_visible();
   std::vector<Copies> find_copies() const;
   bool same_as_first(const Copy& copy, const Copy& first) const;
@@ -96,10 +94,10 @@ private:
   const PrimitiveList& primitives_;
   std::span<const Run> runs_;
   const Camera& camera_;
-  bool sampled_ = false;             ///< some rays see motion
-  std::vector<uint8_t> seen_;        ///< by run
-  std::vector<RayTraits> traits_;    ///< by run
-  std::vector<uint8_t> taken_;       ///< by run: is part of an instance
+  bool sampled_ = false;          ///< some rays see motion
+  std::vector<uint8_t> seen_;     ///< by run
+  std::vector<RayTraits> traits_; ///< by run
+  std::vector<uint8_t> taken_;    ///< by run: is part of an instance
   std::vector<Single> singles_;
   std::vector<FaceRate> rates_; ///< of these
   std::map<RayTraits, List> by_traits_;
@@ -180,8 +178,7 @@ bool RayGeometry::Gatherer::same_as_first(const Copy& copy, const Copy& first) c
   Matrix4 a = inverse_or_identity(copy.to_camera), b = inverse_or_identity(first.to_camera);
   for (size_t i = 0; i < copy.end - copy.first; ++i) {
     const Run &r = runs_[copy.first + i], &q = runs_[first.first + i];
-    if (r.count != q.count ||
-        !nearly_equal(r.state->object_to_camera * a, q.state->object_to_camera * b))
+    if (r.count != q.count || !nearly_equal(r.state->object_to_camera * a, q.state->object_to_camera * b))
       return false;
     for (uint32_t k = 0; k < r.count && r.pieces != q.pieces; ++k)
       if (!same_geometry(*r.primitive(k).geometry, *q.primitive(k).geometry)) return false;
@@ -201,8 +198,8 @@ std::vector<RayGeometry::Gatherer::Copies> RayGeometry::Gatherer::find_copies() 
   };
   for (const ObjectCopy& c : out_.scene_.copies)
     if (c.count > 0 && c.first + c.count <= primitives_.size())
-      add(c.object, {primitives_.run_number(c.first), primitives_.run_number(c.first + c.count - 1) + 1,
-                     c.to_camera});
+      add(c.object,
+          {primitives_.run_number(c.first), primitives_.run_number(c.first + c.count - 1) + 1, c.to_camera});
   for (size_t i = 0; i < runs_.size(); ++i)
     if (runs_[i].pieces.use_count() > 1)
       add(runs_[i].pieces.get(), {i, i + 1, runs_[i].state->object_to_camera});
@@ -234,8 +231,8 @@ std::vector<float> RayGeometry::Gatherer::fineness(const Copy& copy) const {
   return out;
 }
 
-/// Rates of all primitives of an object, as finely as the finest of its copies needs it: each block is measured
-/// in those where it is largest. That neighbours meet takes all to be measured in the same ones.
+/// Rates of all primitives of an object, as finely as the finest of its copies needs it: each block is
+/// measured in those where it is largest. That neighbours meet takes all to be measured in the same ones.
 std::vector<FaceRate> RayGeometry::Gatherer::rates_of(const Copies& copies) const {
   constexpr float kWorthIt = 1.1f; // finer by so much
   std::vector<std::vector<float>> wanted;

@@ -8,7 +8,6 @@
 #include "render/prims/dice.h"
 #include "render/rays/ray_geometry.h"
 
-
 namespace render {
 
 /// A ray that hit something.

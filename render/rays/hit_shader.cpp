@@ -201,7 +201,7 @@ struct HitShader::Demand {
 /// What is the same for the hits of a batch that can be diced together.
 struct HitShader::Work {
   bool moves_points = false; ///< rays see displacements
-  slvm::ShaderSet set; ///< those that run
+  slvm::ShaderSet set;       ///< those that run
   std::vector<const slvm::Instance*> volumes;
   bool plain = false;                 ///< no shader runs: the look of the primitive
   const PhotonMap* photons = nullptr; ///< or that of photons

@@ -111,8 +111,8 @@ SurfacePlace RayGeometry::place(const RayHit& hit) {
   };
   const FaceScene* made = items_[item.model]->ready.load(std::memory_order_acquire);
   const Vec2 at = (made ? made : faces(hit.item))->on_patch(hit);
-  return {item.first_primitive + part.primitive, parameter(column, at.x, part.log_u), parameter(row, at.y, part.log_v),
-          part.displaced};
+  return {item.first_primitive + part.primitive, parameter(column, at.x, part.log_u),
+          parameter(row, at.y, part.log_v), part.displaced};
 }
 
 /// The patches of one request are one surface.

@@ -34,9 +34,7 @@ std::vector<uint32_t> RayGeometry::bounding(uint32_t index, const RayRule& rule,
     const RayHit &x = crossings[a].hit, &y = crossings[b].hit;
     return x.distance != y.distance ? x.distance < y.distance : x.face < y.face;
   });
-  auto node_of = [&](uint32_t k) {
-    return solid.node[item.parts->find(crossings[k].hit.face)];
-  };
+  auto node_of = [&](uint32_t k) { return solid.node[item.parts->find(crossings[k].hit.face)]; };
   SolidHits hits;
   std::vector<uint32_t> numbers; // of what is in `hits`
   std::vector<uint8_t> done(order.size());

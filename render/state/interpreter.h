@@ -14,6 +14,7 @@
 #include "slvm/support/diagnostics.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -59,6 +60,8 @@ public:
   /// Requests archives and instances may repeat in all. A few levels that each read the next one ten times
   /// are harmless; a row of levels that each read the next one twice never ends.
   size_t most_replayed = 100'000'000;
+  /// Surfaces in a world: their numbers are of 32 bits.
+  size_t most_primitives = std::numeric_limits<uint32_t>::max();
   /// Whether RunProgram may run what a scene names.
   bool allow_programs = false;
   /// Whether it may run what requests name that do not come from a file: those of a C program.

@@ -41,7 +41,12 @@ void Interpreter::add_mesh(const RequestCall& call,
   } else {
     pieces = make();
   }
-  if (pieces) scene_.primitives.add(primitive_state(), std::move(pieces));
+  if (!pieces) return;
+  if (scene_.primitives.size() + pieces->count() > most_primitives)
+    error(call, fmt::format("more than {} surfaces in a world; the mesh is skipped", most_primitives),
+          RiError::kLimit);
+  else
+    scene_.primitives.add(primitive_state(), std::move(pieces));
 }
 
 /// PointsPolygons and PointsGeneralPolygons.

@@ -317,8 +317,7 @@ void compare_with_grid(const ShadedScene& scene, int rounds) {
       task.rect = {static_cast<float>(k % 16) / 16, static_cast<float>(k % 16 + 1) / 16,
                    static_cast<float>(k / 16) / 16, static_cast<float>(k / 16 + 1) / 16};
       const render::Primitive ball = s.scene().primitives[static_cast<size_t>(k % scene.balls)];
-      render::dice({&ball, 1}, task,
-                   static_cast<uint64_t>(k), dice, {}, grid);
+      render::dice({&ball, 1}, task, static_cast<uint64_t>(k), dice, {}, grid);
       context.shade(set, grid);
     }
   };
