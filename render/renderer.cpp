@@ -274,11 +274,9 @@ void Renderer::Impl::make_what_rays_see(Scene& scene) {
     scene.procedurals.erase(scene.procedurals.begin() + static_cast<std::ptrdiff_t>(i));
     auto seen = seen_bound(p, camera, Vec2(0.0f));
     SceneContent content = interpreter.make_content(p, seen ? seen->area : 0);
-    auto append = [](auto& to, auto& from) {
-      to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
-    };
-    append(scene.primitives, content.primitives);
-    append(scene.procedurals, content.procedurals);
+    scene.primitives.append(std::move(content.primitives));
+    scene.procedurals.insert(scene.procedurals.end(), std::make_move_iterator(content.procedurals.begin()),
+                             std::make_move_iterator(content.procedurals.end()));
     scene.spaces.insert(content.spaces.begin(), content.spaces.end());
   }
 }

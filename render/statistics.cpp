@@ -42,7 +42,7 @@ std::string format_text(const FrameStatistics& s) {
   out += fmt::format("  seconds         {:10.3f}  shaders bound {:.3f}, rendered {:.3f}, written {:.3f}\n",
                      s.bind_seconds + s.render_seconds + s.write_seconds, s.bind_seconds, s.render_seconds,
                      s.write_seconds);
-  out += fmt::format("  primitives      {:10}\n", r.primitives);
+  out += fmt::format("  primitives      {:10}  {} split\n", r.primitives, r.split_primitives);
   out += fmt::format("  grids           {:10}  {} shaded\n", r.grids, r.shaded_grids);
   out += fmt::format("  micropolygons   {:10}  {} points shaded\n", r.micropolygons, r.shaded_points);
   if (const RayUsage& y = s.rays; y.all() > 0) {
@@ -70,15 +70,15 @@ std::string format_json(const FrameStatistics& s) {
   return fmt::format(
       "{{\"version\":{},\"frame\":{},\"width\":{},\"height\":{},\"samples_per_pixel\":{},"
       "\"threads\":{},\"seconds\":{{\"bind\":{:.6f},\"render\":{:.6f},\"write\":{:.6f}}},"
-      "\"primitives\":{},\"grids\":{},\"shaded_grids\":{},\"micropolygons\":{},"
+      "\"primitives\":{},\"split_primitives\":{},\"grids\":{},\"shaded_grids\":{},\"micropolygons\":{},"
       "\"shaded_points\":{},\"texture_files\":{},\"texture_bytes\":{},\"peak_bytes\":{},"
       "\"rays\":{{\"all\":{},\"shadow\":{},\"hemisphere\":{},\"hemispheres\":{},\"hit_grids\":{},"
       "\"hit_points\":{},\"faces\":{},\"bytes\":{}}},\"shaders\":[{}]}}",
       FrameStatistics::kVersion, s.frame, s.width, s.height, s.samples_per_pixel, s.threads, s.bind_seconds,
-      s.render_seconds, s.write_seconds, r.primitives, r.grids, r.shaded_grids, r.micropolygons,
-      r.shaded_points, s.texture_files, s.texture_bytes, s.peak_bytes, s.rays.all(), s.rays.shadow_rays,
-      s.rays.hemisphere_rays, s.rays.hemispheres, s.rays.hit_grids, s.rays.hit_points, s.rays.geometry.faces,
-      s.rays.geometry.bytes, shaders);
+      s.render_seconds, s.write_seconds, r.primitives, r.split_primitives, r.grids, r.shaded_grids,
+      r.micropolygons, r.shaded_points, s.texture_files, s.texture_bytes, s.peak_bytes, s.rays.all(),
+      s.rays.shadow_rays, s.rays.hemisphere_rays, s.rays.hemispheres, s.rays.hit_grids, s.rays.hit_points,
+      s.rays.geometry.faces, s.rays.geometry.bytes, shaders);
 }
 
 long long peak_memory() {

@@ -1,11 +1,13 @@
 // The frame loop. Order of work:
-//   1. split: every primitive, in parallel, into GridTasks (a few dozen bytes each);
+//   1. split: every primitive, in parallel, into GridTasks (a few dozen bytes each); but those of large
+//   meshes
+//      when a bucket comes to them (task_batch.h);
 //   2. bin: each bucket gets the list of tasks that may touch it, nearest first;
 //   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are
 //   closed. A grid
 //      is diced and shaded by the first bucket that needs it and freed by the last one in whose list it is,
 //      so the grids in memory are those of about one row of buckets. Procedurals join in when a bucket comes
-//      to them (task_batch.h).
+//      to them.
 #include "render/hider/frame.h"
 
 #include "render/hider/random.h"
@@ -34,7 +36,7 @@ namespace {
 
 struct Bucket {
   std::vector<uint32_t> tasks; ///< of the scene's own primitives, nearest first
-  std::vector<LazyBatch*> procedurals;
+  std::vector<LazyBatch*> waiting;
 };
 
 class FrameRenderer {
@@ -43,11 +45,10 @@ public:
       : scene_(scene), options_(scene.options), shading_(shading), settings_(settings),
         camera_(scene.options), content_(camera_, layout_, split_, settings.make_content) {
     sampling_ = SamplingSettings::from(options_, settings.aovs);
-    sampling_.moving = std::any_of(scene.primitives.begin(), scene.primitives.end(), [](const Primitive& p) {
-      return !p.state->motion.empty() || !p.deformation.empty();
-    });
-    sampling_.size.levels = std::any_of(scene.primitives.begin(), scene.primitives.end(),
-                                        [](const Primitive& p) { return !p.state->level.whole(); });
+    for (const PrimitiveList::Run& run : scene.primitives.runs()) {
+      sampling_.moving = sampling_.moving || run.moves();
+      sampling_.size.levels = sampling_.size.levels || !run.state->level.whole();
+    }
     // What procedurals make may move, or go over into another level.
     if (!scene.procedurals.empty()) {
       if (options_.shutter_close > options_.shutter_open) sampling_.moving = true;
@@ -72,6 +73,7 @@ private:
     std::unique_ptr<GridShader> shader;
     std::unique_ptr<SampleBuffer> samples;
     slvm::Grid grid{2, 2};
+    std::vector<Primitive> pieces; ///< of that grid
     FrameReport report;
   };
 
@@ -117,7 +119,7 @@ private:
   LazyContent content_;
   std::atomic<size_t> next_bucket_{0};
   std::mutex progress_mutex_;
-  size_t finished_buckets_ = 0;
+  size_t finished_buckets_ = 0, split_count_ = 0;
 };
 
 Image FrameRenderer::run(FrameReport& report) {
@@ -145,6 +147,7 @@ Image FrameRenderer::run(FrameReport& report) {
   else
     tbb::task_arena(threads_).execute(make);
   report.primitives += content_.primitives();
+  report.split_primitives += split_count_ + content_.split();
   report.grids += batch_.tasks.size() + content_.grids();
   for (const Worker& w : workers) {
     report.shaded_grids += w.report.shaded_grids;
@@ -182,12 +185,27 @@ void FrameRenderer::split_all() {
   s.motion = options_.sample_motion;
   // Chunks of primitives in parallel, joined in order: task numbers never depend on the threads.
   constexpr size_t kChunk = 64;
-  size_t count = scene_.primitives.size(), chunks = (count + kChunk - 1) / kChunk;
-  std::vector<std::vector<GridTask>> parts(chunks);
-  for_all(chunks, [&](size_t c) {
-    for (size_t i = c * kChunk; i < std::min(count, (c + 1) * kChunk); ++i)
+  std::vector<std::pair<size_t, size_t>> chunks;
+  auto add_chunks = [&](size_t first, size_t end) {
+    split_count_ += end - first;
+    for (size_t next = 0; first < end; first = next) {
+      next = std::min(end, (first / kChunk + 1) * kChunk);
+      chunks.emplace_back(first, next);
+    }
+  };
+  size_t first = 0;
+  for (const PrimitiveList::Run& run : scene_.primitives.runs())
+    if (waits(run)) {
+      add_chunks(first, run.first);
+      first = size_t{run.first} + run.count;
+    }
+  add_chunks(first, scene_.primitives.size());
+  std::vector<std::vector<GridTask>> parts(chunks.size());
+  for_all(chunks.size(), [&](size_t c) {
+    for (size_t i = chunks[c].first; i < chunks[c].second; ++i)
       split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
     join_tasks(scene_.primitives, parts[c]);
+    parts[c].shrink_to_fit();
   });
   size_t tasks = 0;
   for (const auto& part : parts)
@@ -197,7 +215,7 @@ void FrameRenderer::split_all() {
     batch_.tasks.insert(batch_.tasks.end(), part.begin(), part.end());
     part = {};
   }
-  batch_.primitives = scene_.primitives;
+  batch_.primitives = &scene_.primitives;
   batch_.slots = std::make_unique<GridSlot[]>(batch_.tasks.size());
   if (scene_.solids > 0) batch_.measure_solids(camera_);
 }
@@ -216,10 +234,12 @@ void FrameRenderer::make_buckets() {
     for_each(r, [&](Bucket& b) { b.tasks.push_back(t); });
     batch_.slots[t].users = static_cast<uint32_t>(r.count());
   }
-  batch_.procedurals =
-      lazy_batches(scene_.procedurals, 0, camera_, layout_, {0, layout_.columns - 1, 0, layout_.rows - 1});
-  for (const auto& lazy : batch_.procedurals)
-    for_each(lazy->buckets, [&](Bucket& b) { b.procedurals.push_back(lazy.get()); });
+  LazyFinder finder(camera_, layout_, 0, {0, layout_.columns - 1, 0, layout_.rows - 1});
+  finder.add(scene_.procedurals);
+  finder.add(scene_.primitives);
+  batch_.waiting = finder.take();
+  for (const auto& lazy : batch_.waiting)
+    for_each(lazy->buckets, [&](Bucket& b) { b.waiting.push_back(lazy.get()); });
   for_all(buckets_.size(), [&](size_t b) {
     std::sort(buckets_[b].tasks.begin(), buckets_[b].tasks.end(), [&](uint32_t x, uint32_t y) {
       const GridTask &s = batch_.tasks[x], &t = batch_.tasks[y];
@@ -233,7 +253,7 @@ void FrameRenderer::make_buckets() {
 void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
   Bucket& bucket = buckets_[static_cast<size_t>(j * layout_.columns + i)];
   PixelRect pixels = layout_.rect(i, j), rect = image_rect(pixels);
-  if (bucket.tasks.empty() && bucket.procedurals.empty()) {
+  if (bucket.tasks.empty() && bucket.waiting.empty()) {
     clear(sampling_.reconstruction, rect, image_);
     finish_bucket(rect, worker);
     return;
@@ -241,12 +261,12 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
   if (!worker.samples) worker.samples = std::make_unique<SampleBuffer>(sampling_);
   SampleBuffer& samples = *worker.samples;
   samples.begin(pixels);
-  BucketQueue queue(batch_, std::exchange(bucket.tasks, {}), bucket.procedurals);
+  BucketQueue queue(batch_, std::exchange(bucket.tasks, {}), std::exchange(bucket.waiting, {}));
   std::vector<LazyBatch*> opened;
   for (BucketQueue::Item item; queue.next(item);) {
     bool hidden = item.zmin > samples.farthest();
     if (LazyBatch* lazy = item.lazy) {
-      if (hidden && lazy->procedural.attributes->cull_hidden) {
+      if (hidden && lazy->cull_hidden) {
         content_.leave(*lazy, i, j, false);
       } else {
         content_.open(*lazy, i, j, queue);
@@ -255,10 +275,10 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
       continue;
     }
     const GridTask& task = item.batch->tasks[item.task];
-    const Primitive& primitive = item.batch->primitive_of(item.task);
+    const PrimitiveState& state = item.batch->state_of(item.task);
     // Of a solid all must be known, whatever is seen of it.
-    hidden = hidden || (!primitive.state->solid && masked(task, samples.covered()));
-    if (!hidden || !primitive.attributes().cull_hidden)
+    hidden = hidden || (!state.solid && masked(task, samples.covered()));
+    if (!hidden || !state.attributes->cull_hidden)
       if (const ShadedGrid* grid = shaded(*item.batch, item.task, worker)) samples.draw(*grid);
     item.batch->slots[item.task].leave();
   }
@@ -323,12 +343,15 @@ void FrameRenderer::count(const Primitive& primitive, const slvm::Grid& grid,
 std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, uint32_t index,
                                                        Worker& worker) {
   const GridTask& task = batch.tasks[index];
-  const Primitive& primitive = batch.primitives[task.primitive];
+  std::vector<Primitive>& pieces = worker.pieces;
+  pieces.clear();
+  for (uint32_t k = 0; k < task.pieces; ++k)
+    pieces.push_back((*batch.primitives)[task.primitive + k]);
+  const Primitive& primitive = pieces.front();
   const uint64_t id = batch.id ^ index;
   DiceContext context{&camera_, &shading_.strings(), options_.shutter_open + options_.shutter_offset,
                       options_.shutter_close - options_.shutter_open};
   slvm::Grid& grid = worker.grid;
-  std::span<const Primitive> pieces = batch.primitives.subspan(task.primitive, task.pieces);
   const Attributes& a = primitive.attributes();
   ReadVariables read;
   read.predefined = worker.shader->reads(primitive) | shown_;

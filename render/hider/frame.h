@@ -37,7 +37,8 @@ struct ShaderCost {
 
 /// What a user should be told about a frame.
 struct FrameReport {
-  size_t primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0, micropolygons = 0;
+  size_t primitives = 0, split_primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0,
+         micropolygons = 0;
   std::map<std::string, ShaderCost> shaders; ///< by name of the surface shader
   uint64_t variables =
       0; ///< a bit for each of the first 64 FrameSettings::aovs that some grid had a value for

@@ -1,4 +1,4 @@
-// Work of buckets, and procedurals that join it.
+// Work of buckets, and what joins it later.
 #include "render/hider/task_batch.h"
 
 #include "render/hider/random.h"
@@ -13,15 +13,18 @@ TaskBatch::TaskBatch() = default;
 TaskBatch::~TaskBatch() = default;
 
 void TaskBatch::measure_solids(const Camera& camera) {
-  for (const Primitive& p : primitives) {
-    if (!p.state->solid) continue;
-    SolidExtent& extent = solids[p.state->solid.get()];
-    extent.cut_near.resize(p.state->solid->size());
-    if (!(p.camera_bound({}).min.z >= camera.near_plane())) extent.cut_near[p.state->solid_primitive] = 1;
+  for (const PrimitiveList::Run& run : primitives->runs()) {
+    const PrimitiveState& state = *run.state;
+    if (!state.solid) continue;
+    SolidExtent& extent = solids[state.solid.get()];
+    extent.cut_near.resize(state.solid->size());
+    for (uint32_t k = 0; k < run.count; ++k)
+      if (!(run.primitive(k).camera_bound({}).min.z >= camera.near_plane()))
+        extent.cut_near[state.solid_primitive] = 1;
   }
   if (solids.empty()) return;
   auto extent_of = [&](const GridTask& task) {
-    const SolidTree* solid = primitives[task.primitive].state->solid.get();
+    const SolidTree* solid = primitives->state(task.primitive).solid.get();
     return solid ? &solids.at(solid) : nullptr;
   };
   for (const GridTask& task : tasks)
@@ -50,32 +53,58 @@ BucketRange BucketLayout::touched(Vec2 raster_min, Vec2 raster_max) const {
           index(raster_max.y, ymargin, crop.y0, height, rows)};
 }
 
-std::vector<std::unique_ptr<LazyBatch>> lazy_batches(std::vector<Procedural> procedurals, uint64_t id,
-                                                     const Camera& camera, const BucketLayout& layout,
-                                                     const BucketRange& within) {
-  std::vector<std::unique_ptr<LazyBatch>> out;
-  Vec2 margin(static_cast<float>(layout.xmargin), static_cast<float>(layout.ymargin));
-  for (size_t i = 0; i < procedurals.size(); ++i) {
-    auto seen = seen_bound(procedurals[i], camera, margin);
-    if (!seen) continue;
-    BucketRange buckets = layout.touched(seen->raster_min, seen->raster_max).within(within);
-    if (buckets.empty()) continue;
-    auto lazy = std::make_unique<LazyBatch>();
-    lazy->procedural = std::move(procedurals[i]);
-    lazy->seen = *seen;
-    lazy->buckets = buckets;
-    lazy->id = hash_of(static_cast<int>(id), static_cast<int>(id >> 32), static_cast<uint32_t>(i + 1)) | 1;
-    lazy->left.resize(buckets.count());
-    lazy->still_in = buckets.count();
-    out.push_back(std::move(lazy));
-  }
-  return out;
+namespace {
+
+Vec2 margin_of(const BucketLayout& layout) {
+  return {static_cast<float>(layout.xmargin), static_cast<float>(layout.ymargin)};
 }
 
-BucketQueue::BucketQueue(TaskBatch& scene, std::vector<uint32_t> tasks,
-                         std::span<LazyBatch* const> procedurals)
+} // namespace
+
+/// Null: it cannot be seen. `number`: among all of the batch.
+LazyBatch* LazyFinder::add(const std::optional<SeenBound>& seen, uint64_t number) {
+  if (!seen) return nullptr;
+  BucketRange buckets = layout_.touched(seen->raster_min, seen->raster_max).within(within_);
+  if (buckets.empty()) return nullptr;
+  auto lazy = std::make_unique<LazyBatch>();
+  lazy->seen = *seen;
+  lazy->buckets = buckets;
+  lazy->id = hash_of(static_cast<int>(id_), static_cast<int>(id_ >> 32), number) | 1;
+  lazy->left.resize(buckets.count());
+  lazy->still_in = buckets.count();
+  return found_.emplace_back(std::move(lazy)).get();
+}
+
+void LazyFinder::add(std::vector<Procedural> procedurals) {
+  for (size_t i = 0; i < procedurals.size(); ++i) {
+    LazyBatch* lazy = add(seen_bound(procedurals[i], camera_, margin_of(layout_)), i + 1);
+    if (!lazy) continue;
+    lazy->cull_hidden = procedurals[i].attributes->cull_hidden;
+    lazy->procedural = std::make_unique<const Procedural>(std::move(procedurals[i]));
+  }
+}
+
+void LazyFinder::add(const PrimitiveList& list) {
+  constexpr uint64_t kBlocks = uint64_t{1} << 32; // behind all numbers of procedurals
+  for (const PrimitiveList::Run& run : list.runs()) {
+    if (!waits(run) || !run.attributes().rays.camera) continue;
+    for (uint32_t from = 0; from < run.count; from += Pieces::kBlock) {
+      Box box = run.camera_bound(from / Pieces::kBlock);
+      // What is rounded otherwise must not lie outside.
+      box.grow(1e-6f * std::max(glm::length(box.min), glm::length(box.max)));
+      LazyBatch* lazy = add(seen_bound(box, camera_, margin_of(layout_)), kBlocks + run.first + from);
+      if (!lazy) continue;
+      lazy->cull_hidden = run.attributes().cull_hidden;
+      lazy->list = &list;
+      lazy->first = run.first + from;
+      lazy->end = run.first + std::min(from + Pieces::kBlock, run.count);
+    }
+  }
+}
+
+BucketQueue::BucketQueue(TaskBatch& scene, std::vector<uint32_t> tasks, std::span<LazyBatch* const> waiting)
     : scene_(scene), tasks_(std::move(tasks)) {
-  for (LazyBatch* lazy : procedurals)
+  for (LazyBatch* lazy : waiting)
     add({lazy->seen.zmin, nullptr, 0, lazy});
 }
 
@@ -103,19 +132,35 @@ bool BucketQueue::next(Item& item) {
 
 /// With the lock of `lazy`.
 void LazyContent::make(LazyBatch& lazy) {
-  SceneContent content;
-  {
-    std::lock_guard one_at_a_time(maker_mutex_);
-    content = make_(lazy.procedural, lazy.seen.area);
-  }
   TaskBatch& batch = lazy.batch;
   batch.id = lazy.id;
-  batch.owned = std::move(content.primitives);
-  batch.primitives = batch.owned;
-  for (uint32_t k = 0; k < batch.owned.size(); ++k)
-    split_primitive(batch.owned[k], k, split_, batch.tasks);
-  join_tasks(batch.owned, batch.tasks);
-  batch.measure_solids(camera_);
+  auto cut = [&](size_t first, size_t end) {
+    for (size_t k = first; k < end; ++k)
+      split_primitive((*batch.primitives)[k], static_cast<uint32_t>(k), split_, batch.tasks);
+    cut_ += end - first;
+  };
+  if (lazy.procedural) {
+    SceneContent content;
+    {
+      std::lock_guard one_at_a_time(maker_mutex_);
+      content = make_(*lazy.procedural, lazy.seen.area);
+    }
+    batch.owned = std::move(content.primitives);
+    batch.primitives = &batch.owned;
+    primitives_ += batch.owned.size();
+    for (const PrimitiveList::Run& run : batch.owned.runs())
+      if (!waits(run)) cut(run.first, run.first + run.count);
+    LazyFinder finder(camera_, layout_, lazy.id, lazy.buckets);
+    finder.add(std::move(content.procedurals));
+    finder.add(batch.owned);
+    batch.waiting = finder.take();
+  } else {
+    batch.primitives = lazy.list;
+    cut(lazy.first, lazy.end);
+  }
+  join_tasks(*batch.primitives, batch.tasks);
+  batch.tasks.shrink_to_fit();
+  if (lazy.procedural) batch.measure_solids(camera_);
   batch.slots = std::make_unique<GridSlot[]>(batch.tasks.size());
   lazy.tasks_of.resize(lazy.buckets.count());
   auto for_each = [&](const BucketRange& r, auto&& f) {
@@ -132,15 +177,13 @@ void LazyContent::make(LazyBatch& lazy) {
                ++batch.slots[t].users;
              });
   }
-  batch.procedurals = lazy_batches(std::move(content.procedurals), lazy.id, camera_, layout_, lazy.buckets);
-  for (const auto& inner : batch.procedurals)
+  for (const auto& inner : batch.waiting)
     for_each(inner->buckets, [&](int i, int j, size_t bucket) {
       if (!lazy.left[bucket]) return;
       inner->left[inner->buckets.number(i, j)] = true;
       --inner->still_in;
     });
   lazy.made = true;
-  primitives_ += batch.owned.size();
   grids_ += batch.tasks.size();
 }
 
@@ -149,7 +192,7 @@ void LazyContent::open(LazyBatch& lazy, int i, int j, BucketQueue& queue) {
   if (!lazy.made) make(lazy);
   for (uint32_t t : lazy.tasks_of[lazy.buckets.number(i, j)])
     queue.add({lazy.batch.tasks[t].zmin, &lazy.batch, t, nullptr});
-  for (const auto& inner : lazy.batch.procedurals)
+  for (const auto& inner : lazy.batch.waiting)
     if (inner->buckets.contains(i, j)) queue.add({inner->seen.zmin, nullptr, 0, inner.get()});
 }
 
@@ -159,16 +202,16 @@ void LazyContent::leave(LazyBatch& lazy, int i, int j, bool was_open) {
   if (lazy.made && !was_open) {
     for (uint32_t t : lazy.tasks_of[lazy.buckets.number(i, j)])
       lazy.batch.slots[t].leave();
-    for (const auto& inner : lazy.batch.procedurals)
+    for (const auto& inner : lazy.batch.waiting)
       if (inner->buckets.contains(i, j)) leave(*inner, i, j, false);
   }
   if (--lazy.still_in > 0) return;
   // Nobody will ask again.
-  lazy.batch.procedurals.clear();
+  lazy.batch.waiting.clear();
   lazy.batch.slots.reset();
   lazy.batch.tasks = {};
   lazy.batch.solids.clear();
-  lazy.batch.primitives = {};
+  lazy.batch.primitives = nullptr;
   lazy.batch.owned = {};
   lazy.tasks_of = {};
 }

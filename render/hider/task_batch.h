@@ -1,9 +1,10 @@
-// The work of a frame: primitives cut into tasks, the buckets these fall in, and what procedurals add when a
-// bucket comes to them.
+// The work of a frame: primitives cut into tasks, the buckets these fall in, and what procedurals and large
+// meshes add when a bucket comes to them.
 //
 // A bucket takes its work nearest first. Where it meets a procedural that something nearer does not hide, the
 // content is made, once, and cut; all buckets the bound covers then find the pieces that concern them. So a
 // procedural that is hidden in every bucket is never made, and one that all its buckets have left is freed.
+// It is the same with blocks of neighbours in a large mesh, which are there, but not cut.
 #pragma once
 
 #include "render/hider/image.h"
@@ -16,6 +17,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <queue>
 #include <span>
 #include <vector>
@@ -76,12 +78,12 @@ struct TaskBatch {
   TaskBatch();
   ~TaskBatch();
 
-  uint64_t id = 0;              ///< 0: the scene's own
-  std::vector<Primitive> owned; ///< of procedurals; the scene keeps its own
-  std::span<const Primitive> primitives;
+  uint64_t id = 0;     ///< 0: the scene's own
+  PrimitiveList owned; ///< of procedurals; the scene keeps its own
+  const PrimitiveList* primitives = nullptr;
   std::vector<GridTask> tasks;
   std::unique_ptr<GridSlot[]> slots;
-  std::vector<std::unique_ptr<LazyBatch>> procedurals;
+  std::vector<std::unique_ptr<LazyBatch>> waiting;
   std::map<const SolidTree*, SolidExtent> solids;
 
   /// When all tasks are there. What bounds a solid is known when all its surfaces are: its grids come
@@ -89,16 +91,19 @@ struct TaskBatch {
   void measure_solids(const Camera&);
   /// 0: the task's surface belongs to none.
   uint32_t solid_number(uint32_t task) const {
-    const SolidTree* solid = solids.empty() ? nullptr : primitive_of(task).state->solid.get();
+    const SolidTree* solid = solids.empty() ? nullptr : state_of(task).solid.get();
     return solid ? solid->number() : 0;
   }
 
-  const Primitive& primitive_of(uint32_t task) const { return primitives[tasks[task].primitive]; }
+  const PrimitiveState& state_of(uint32_t task) const { return primitives->state(tasks[task].primitive); }
 };
 
-/// A procedural that can be seen.
+/// A procedural that can be seen, or a block of a large mesh.
 struct LazyBatch {
-  Procedural procedural;
+  std::unique_ptr<const Procedural> procedural; ///< null: primitives [first, end) of `list`
+  const PrimitiveList* list = nullptr;
+  size_t first = 0, end = 0;
+  bool cull_hidden = true;
   SeenBound seen;
   BucketRange buckets;
   uint64_t id = 0;
@@ -115,10 +120,31 @@ struct LazyBatch {
 /// one thread at a time.
 using ContentMaker = std::function<SceneContent(const Procedural&, float area)>;
 
-/// The procedurals that can be seen, as parts of batch `id`, in those of `within`.
-std::vector<std::unique_ptr<LazyBatch>> lazy_batches(std::vector<Procedural> procedurals, uint64_t id,
-                                                     const Camera& camera, const BucketLayout& layout,
-                                                     const BucketRange& within);
+/// Whether the primitives of a request are so many that blocks of them are cut one by one. What bounds a
+/// solid is cut at once: all of it must be known.
+inline bool waits(const PrimitiveList::Run& run) {
+  return run.count > Pieces::kBlock && !run.state->solid;
+}
+
+/// Finds what can be seen, as parts of batch `id`, in the buckets of `within`.
+class LazyFinder {
+public:
+  LazyFinder(const Camera& camera, const BucketLayout& layout, uint64_t id, const BucketRange& within)
+      : camera_(camera), layout_(layout), id_(id), within_(within) {}
+  void add(std::vector<Procedural> procedurals);
+  /// The blocks of all that waits; the list must stay where it is.
+  void add(const PrimitiveList&);
+  std::vector<std::unique_ptr<LazyBatch>> take() { return std::move(found_); }
+
+private:
+  LazyBatch* add(const std::optional<SeenBound>& seen, uint64_t number);
+
+  const Camera& camera_;
+  const BucketLayout& layout_;
+  uint64_t id_;
+  BucketRange within_;
+  std::vector<std::unique_ptr<LazyBatch>> found_;
+};
 
 /// What one bucket has to draw, nearest first.
 class BucketQueue {
@@ -127,11 +153,11 @@ public:
     float zmin = 0;
     TaskBatch* batch = nullptr;
     uint32_t task = 0;
-    LazyBatch* lazy = nullptr; ///< set: a procedural, not a task
+    LazyBatch* lazy = nullptr; ///< set: not a task
   };
 
   /// `tasks`, of `scene`, are sorted.
-  BucketQueue(TaskBatch& scene, std::vector<uint32_t> tasks, std::span<LazyBatch* const> procedurals);
+  BucketQueue(TaskBatch& scene, std::vector<uint32_t> tasks, std::span<LazyBatch* const> waiting);
   void add(const Item& item) { added_.push(item); }
   /// False: all is done.
   bool next(Item& item);
@@ -146,7 +172,7 @@ private:
   std::priority_queue<Item, std::vector<Item>, Later> added_;
 };
 
-/// Procedurals on the way from bound to grids.
+/// Procedurals and blocks of meshes on the way from bound to grids.
 class LazyContent {
 public:
   LazyContent(const Camera& camera, const BucketLayout& layout, const SplitSettings& split,
@@ -159,7 +185,8 @@ public:
   /// asked.
   void leave(LazyBatch& lazy, int i, int j, bool was_open);
 
-  size_t primitives() const { return primitives_; }
+  size_t primitives() const { return primitives_; } ///< of procedurals
+  size_t split() const { return cut_; }             ///< primitives
   size_t grids() const { return grids_; }
 
 private:
@@ -170,7 +197,7 @@ private:
   const SplitSettings& split_;
   ContentMaker make_;
   std::mutex maker_mutex_;
-  std::atomic<size_t> primitives_{0}, grids_{0};
+  std::atomic<size_t> primitives_{0}, cut_{0}, grids_{0};
 };
 
 } // namespace render

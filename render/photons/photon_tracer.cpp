@@ -124,8 +124,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const slvm::Machine& machine, con
 std::vector<const slvm::Instance*> PhotonTracer::lights() const {
   std::vector<const slvm::Instance*> out;
   std::set<const slvm::Instance*> seen;
-  for (const Primitive& p : scene_.primitives)
-    for (const slvm::Instance* light : shaders_.find(&p.attributes())->lights)
+  for (const PrimitiveList::Run& run : scene_.primitives.runs())
+    for (const slvm::Instance* light : shaders_.find(&run.attributes())->lights)
       if (seen.insert(light).second) out.push_back(light);
   return out;
 }
@@ -133,8 +133,8 @@ std::vector<const slvm::Instance*> PhotonTracer::lights() const {
 PhotonReport PhotonTracer::run(size_t photons) {
   PhotonReport report;
   Box box;
-  for (const Primitive& p : scene_.primitives)
-    if (p.attributes().rays.photon) box.add(p.camera_bound({}));
+  for (const PrimitiveList::Run& run : scene_.primitives.runs())
+    if (run.attributes().rays.photon) box.add(run.camera_bound());
   if (box.empty()) return report;
   const SceneSphere sphere{0.5f * (box.min + box.max),
                            std::max(0.51f * glm::length(box.max - box.min), 1e-6f)};

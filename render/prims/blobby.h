@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/prims/blobby_ground.h"
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 #include "render/state/declaration.h"
 #include "slvm/support/result.h"
 
@@ -90,6 +90,6 @@ private:
 /// 24 across the smallest leaf where that is not too many. Varying and vertex variables have a value for each
 /// leaf and are mixed by the leaves' fields.
 void add_blobby(const BlobbyField& field, float wanted, std::span<const TypedParam> vars,
-                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+                const std::shared_ptr<const PrimitiveState>& state, PrimitiveList& out);
 
 } // namespace render

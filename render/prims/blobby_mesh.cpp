@@ -1,7 +1,6 @@
 // Blobbies as quadrilaterals, by surface nets (Gibson 1998): one vertex in each cell of a lattice that the
 // surface passes through, moved onto the surface; one quadrilateral across each lattice edge that crosses it.
 #include "render/prims/blobby.h"
-#include "render/prims/mesh_pieces.h"
 #include "render/prims/patches.h"
 #include "render/prims/typed_vars.h"
 
@@ -280,9 +279,9 @@ private:
 } // namespace
 
 void add_blobby(const BlobbyField& field, float wanted, std::span<const TypedParam> vars,
-                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
+                const std::shared_ptr<const PrimitiveState>& state, PrimitiveList& out) {
   if (field.bound().empty()) return; // constants only: no surface anywhere
-  add_pieces(std::make_shared<BlobbyMesh>(NetMaker(field, wanted, vars).run(), vars), state, out);
+  out.add(state, pieces_of(std::make_shared<BlobbyMesh>(NetMaker(field, wanted, vars).run(), vars)));
 }
 
 } // namespace render

@@ -1,7 +1,6 @@
 // Ribbons and discs.
 #include "render/prims/curves.h"
 
-#include "render/prims/mesh_pieces.h"
 #include "render/prims/patches.h"
 #include "render/prims/typed_vars.h"
 
@@ -429,19 +428,19 @@ void DiscPiece::evaluate(const UvPoints& at, SurfaceLattice& out) const {
 
 void add_curves(const CurveLayout& layout, std::span<const int> points_of_curve, std::vector<Vec3> P,
                 std::vector<TypedParam> vars, const EyeInObject& eye,
-                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
+                const std::shared_ptr<const PrimitiveState>& state, PrimitiveList& out) {
   auto set = std::make_shared<CurveSet>(layout, points_of_curve, std::move(P), std::move(vars), eye);
-  size_t i = 0;
-  for (Primitive& primitive : add_pieces(set, state, out)) {
-    Segment s = set->segment(set->patches()[i++]);
-    primitive.uv = {0, 1, s.v0, s.v1};
-    primitive.one_across = state->attributes->dicing.hair;
-  }
+  const bool hair = state->attributes->dicing.hair;
+  out.add(state, pieces_of(set, [at = set.get(), hair](uint32_t k, Primitive& primitive) {
+            Segment s = at->segment(at->patches()[k]);
+            primitive.uv = {0, 1, s.v0, s.v1};
+            primitive.one_across = hair;
+          }));
 }
 
 void add_points(std::vector<Vec3> P, std::vector<TypedParam> vars, const EyeInObject& eye,
-                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
-  add_pieces(std::make_shared<DiscSet>(std::move(P), std::move(vars), eye), state, out);
+                const std::shared_ptr<const PrimitiveState>& state, PrimitiveList& out) {
+  out.add(state, pieces_of(std::make_shared<DiscSet>(std::move(P), std::move(vars), eye)));
 }
 
 } // namespace render

@@ -2,7 +2,7 @@
 // v along the whole curve. Points as discs that face the eye.
 #pragma once
 
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 #include "render/state/declaration.h"
 
 #include <span>
@@ -39,10 +39,10 @@ struct CurveLayout {
 /// are 1; with "N" the ribbons face it. Sizes of the variables: RISpec 3.2, section 5.6.
 void add_curves(const CurveLayout& layout, std::span<const int> points_of_curve, std::vector<Vec3> P,
                 std::vector<TypedParam> vars, const EyeInObject& eye,
-                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+                const std::shared_ptr<const PrimitiveState>& state, PrimitiveList& out);
 
 /// Appends a disc for each point; widths as above.
 void add_points(std::vector<Vec3> P, std::vector<TypedParam> vars, const EyeInObject& eye,
-                const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+                const std::shared_ptr<const PrimitiveState>& state, PrimitiveList& out);
 
 } // namespace render

@@ -36,14 +36,13 @@ bool is_near(Vec2 size, const GridTask& task) {
 
 } // namespace
 
-void join_tasks(std::span<const Primitive> primitives, std::vector<GridTask>& tasks) {
+void join_tasks(const PrimitiveList& primitives, std::vector<GridTask>& tasks) {
   size_t kept = 0;
   bool open = false; // the last task that was kept may grow
   float wanted = 0;  // points that its pieces need
   for (size_t t = 0; t < tasks.size(); ++t) {
     const GridTask& task = tasks[t];
-    const Primitive& primitive = primitives[task.primitive];
-    bool small = task.nu * task.nv <= kSmall && is_whole(task.rect) && joins(primitive);
+    bool small = task.nu * task.nv <= kSmall && is_whole(task.rect) && joins(primitives[task.primitive]);
     if (small && open) {
       GridTask& run = tasks[kept - 1];
       Vec2 low = glm::min(run.raster_min, task.raster_min), high = glm::max(run.raster_max, task.raster_max);
@@ -53,7 +52,7 @@ void join_tasks(std::span<const Primitive> primitives, std::vector<GridTask>& ta
       bool room = points <= kMostPoints && static_cast<float>(points) <= kMostWaste * both &&
                   is_near(high - low, task);
       if (room && task.primitive == run.primitive + run.pieces && task.step == run.step &&
-          fit(primitives[run.primitive], primitive)) {
+          fit(primitives[run.primitive], primitives[task.primitive])) {
         ++run.pieces;
         wanted = both;
         run.nu = nu;

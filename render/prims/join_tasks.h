@@ -2,14 +2,14 @@
 // its points are, would be most of the work.
 #pragma once
 
+#include "render/prims/primitive_list.h"
 #include "render/prims/split.h"
 
-#include <span>
 #include <vector>
 
 namespace render {
 
 /// Joins tasks that came out of splitting `primitives` in order.
-void join_tasks(std::span<const Primitive> primitives, std::vector<GridTask>& tasks);
+void join_tasks(const PrimitiveList& primitives, std::vector<GridTask>& tasks);
 
 } // namespace render

@@ -83,6 +83,50 @@ MotionShapes clip_to_shutter(const MotionShapes& keys, float open, float close) 
   return clipped(keys, open, close, shape_at);
 }
 
+namespace {
+
+/// A run of surfaces of the first shape, and what they become.
+class DeformingPieces final : public Pieces {
+public:
+  using Shapes = std::vector<TimedValue<PrimitiveList>>;
+
+  DeformingPieces(std::shared_ptr<const Shapes> shapes, uint32_t first, uint32_t count, float open,
+                  float close)
+      : shapes_(std::move(shapes)), first_(first), count_(count), open_(open), close_(close),
+        deforms_(!clip_to_shutter(keys(0), open, close).empty()) {}
+  uint32_t count() const override { return count_; }
+  Primitive piece(uint32_t k) const override {
+    const MotionShapes keys = this->keys(k);
+    Primitive p = shapes_->front().value[first_ + k];
+    p.geometry = shape_at(keys, open_);
+    p.deformation = clip_to_shutter(keys, open_, close_);
+    return p;
+  }
+  bool deforms() const override { return deforms_; }
+
+private:
+  MotionShapes keys(uint32_t k) const {
+    MotionShapes out;
+    for (const auto& shape : *shapes_)
+      out.push_back({shape.time, shape.value[first_ + k].geometry});
+    return out;
+  }
+
+  std::shared_ptr<const Shapes> shapes_;
+  uint32_t first_, count_;
+  float open_, close_;
+  bool deforms_;
+};
+
+} // namespace
+
+void add_deforming(std::vector<TimedValue<PrimitiveList>> shapes, float open, float close,
+                   PrimitiveList& out) {
+  auto all = std::make_shared<const DeformingPieces::Shapes>(std::move(shapes));
+  for (const PrimitiveList::Run& r : all->front().value.runs())
+    out.add(r.state, std::make_shared<DeformingPieces>(all, r.first, r.count, open, close));
+}
+
 std::vector<float> motion_times(const Primitive& primitive) {
   std::vector<float> out;
   for (const auto& key : primitive.state->motion)

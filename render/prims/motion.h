@@ -2,7 +2,7 @@
 // given times points go in straight lines.
 #pragma once
 
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 
 #include <vector>
 
@@ -29,6 +29,10 @@ std::shared_ptr<const Geometry> shape_at(const MotionShapes& keys, float time);
 /// is open.
 MotionMatrices clip_to_shutter(const MotionMatrices& keys, float open, float close);
 MotionShapes clip_to_shutter(const MotionShapes& keys, float open, float close);
+
+/// Appends surfaces that go from shape to shape; all lists are of as many, and the states of the first count.
+void add_deforming(std::vector<TimedValue<PrimitiveList>> shapes, float open, float close,
+                   PrimitiveList& out);
 
 /// The times from which the motion is drawn, 0 and 1 included; empty if the primitive stands still.
 std::vector<float> motion_times(const Primitive&);

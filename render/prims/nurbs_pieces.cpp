@@ -40,10 +40,10 @@ PatchVar corner_parameter(std::string_view name, int axis, const NurbsPiece& pie
 
 void add_nurbs(const std::shared_ptr<const NurbsSurface>& surface, const std::vector<UvQuad>* quads,
                std::span<const TypedParam> vars, const std::shared_ptr<const PrimitiveState>& state,
-               std::vector<Primitive>& out) {
+               PrimitiveList& out) {
+  std::vector<Primitive> made;
   auto add = [&](const NurbsPiece& piece) -> Primitive& {
-    Primitive& primitive = out.emplace_back();
-    primitive.state = state;
+    Primitive& primitive = made.emplace_back();
     primitive.geometry = make_nurbs(piece);
     for (const TypedParam& v : vars)
       primitive.vars.push_back(piece_var(v, piece));
@@ -56,7 +56,7 @@ void add_nurbs(const std::shared_ptr<const NurbsSurface>& surface, const std::ve
       primitive.vars.push_back(corner_parameter("u", 0, piece));
       primitive.vars.push_back(corner_parameter("v", 1, piece));
     }
-    return;
+    return out.add(state, std::move(made));
   }
   const NurbsBasis &u = surface->u, &v = surface->v;
   for (int j = 0; j < v.intervals(); ++j)
@@ -68,6 +68,7 @@ void add_nurbs(const std::shared_ptr<const NurbsSurface>& surface, const std::ve
       primitive.uv = {static_cast<float>(u0), static_cast<float>(u1), static_cast<float>(v0),
                       static_cast<float>(v1)};
     }
+  out.add(state, std::move(made));
 }
 
 } // namespace render

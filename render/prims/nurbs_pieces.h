@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/prims/nurbs.h"
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 #include "render/prims/trim.h"
 #include "render/state/declaration.h"
 
@@ -13,6 +13,6 @@ namespace render {
 /// vertex of control points. Null `quads`: the surface is not trimmed.
 void add_nurbs(const std::shared_ptr<const NurbsSurface>& surface, const std::vector<UvQuad>* quads,
                std::span<const TypedParam> vars, const std::shared_ptr<const PrimitiveState>& state,
-               std::vector<Primitive>& out);
+               PrimitiveList& out);
 
 } // namespace render

@@ -1,7 +1,6 @@
 // Patch meshes.
 #include "render/prims/patch_mesh.h"
 
-#include "render/prims/mesh_pieces.h"
 #include "render/prims/nurbs.h"
 #include "render/prims/patches.h"
 #include "render/prims/typed_vars.h"
@@ -177,16 +176,16 @@ bool MeshPiece::ruled() const {
 
 void add_patch_mesh(const MeshDirection& u, const MeshDirection& v, std::span<const Vec3> P,
                     std::span<const TypedParam> vars, const std::shared_ptr<const PrimitiveState>& state,
-                    std::vector<Primitive>& out, std::span<const float> weights) {
+                    PrimitiveList& out, std::span<const float> weights) {
   bool rational = std::any_of(weights.begin(), weights.end(), [&](float w) { return w != weights[0]; });
   auto mesh = std::make_shared<MeshOfPatches>(u, v, P, vars);
-  size_t k = 0;
-  for (Primitive& primitive : add_pieces(mesh, state, out)) {
-    MeshPatch patch = mesh->patch(mesh->patches()[k++]);
-    primitive.uv = patch.uv();
-    if (!rational) continue;
-    if (auto geometry = rational_geometry(P, weights, patch, u, v)) primitive.geometry = std::move(geometry);
-  }
+  std::vector<std::shared_ptr<const Geometry>> weighted; // null: its weights are all the same
+  for (size_t k = 0; rational && k < mesh->patches().size(); ++k)
+    weighted.push_back(rational_geometry(P, weights, mesh->patch(mesh->patches()[k]), u, v));
+  out.add(state, pieces_of(mesh, [at = mesh.get(), weighted](uint32_t k, Primitive& primitive) {
+            primitive.uv = at->patch(at->patches()[k]).uv();
+            if (!weighted.empty() && weighted[k]) primitive.geometry = unowned(weighted[k].get());
+          }));
 }
 
 } // namespace render

@@ -2,7 +2,7 @@
 // (u,v) square. Steps, wraps and class sizes: RISpec 3.2, section 5.3.
 #pragma once
 
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 #include "render/state/declaration.h"
 
 #include <span>
@@ -31,6 +31,6 @@ struct MeshDirection {
 /// uniform ones patches x patches, all u fastest.
 void add_patch_mesh(const MeshDirection& u, const MeshDirection& v, std::span<const Vec3> P,
                     std::span<const TypedParam> vars, const std::shared_ptr<const PrimitiveState>& state,
-                    std::vector<Primitive>& out, std::span<const float> weights = {});
+                    PrimitiveList& out, std::span<const float> weights = {});
 
 } // namespace render

@@ -31,6 +31,10 @@ public:
   bool empty() const { return size() == 0; }
   PatchVar operator[](size_t i) const { return source_->make(i, piece_); }
   void push_back(PatchVar var);
+  /// The same without a part in the life of the source.
+  PatchVars unowned() const {
+    return source_ ? PatchVars({std::shared_ptr<void>(), source_.get()}, piece_) : PatchVars();
+  }
   /// Surfaces with the same source have variables of the same names.
   const VarSource* source() const { return source_.get(); }
 

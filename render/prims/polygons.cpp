@@ -1,7 +1,6 @@
 // Polygons to bilinear patches.
 #include "render/prims/polygons.h"
 
-#include "render/prims/mesh_pieces.h"
 #include "render/prims/patches.h"
 #include "render/prims/triangulate.h"
 #include "render/prims/typed_vars.h"
@@ -221,9 +220,9 @@ PatchVar PolygonMesh::make(size_t index, uint32_t piece) const {
 
 } // namespace
 
-void add_polygons(PolygonFaces faces, std::vector<Vec3> P, std::vector<TypedParam> vars,
-                  const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
-  add_pieces(std::make_shared<PolygonMesh>(std::move(faces), std::move(P), std::move(vars)), state, out);
+std::shared_ptr<const Pieces> make_polygons(PolygonFaces faces, std::vector<Vec3> P,
+                                            std::vector<TypedParam> vars) {
+  return pieces_of(std::make_shared<PolygonMesh>(std::move(faces), std::move(P), std::move(vars)));
 }
 
 } // namespace render

@@ -4,7 +4,7 @@
 // triangles first. Each patch has u and v of its own, from 0 to 1.
 #pragma once
 
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 #include "render/state/declaration.h"
 
 #include <span>
@@ -18,10 +18,10 @@ struct PolygonFaces {
   std::vector<int> loops_of_face; ///< the outline and the holes of each face; empty: every loop is a face
 };
 
-/// Appends the patches of all faces. `P` holds the vertex positions. Sizes of the variables: one value for
+/// The patches of all faces. `P` holds the vertex positions. Sizes of the variables: one value for
 /// each face, vertex, or corner of a face. Without s, t or st among them, st is the object-space x and y
 /// (RISpec 3.2, 5.1). All patches share what is given here.
-void add_polygons(PolygonFaces faces, std::vector<Vec3> P, std::vector<TypedParam> vars,
-                  const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out);
+std::shared_ptr<const Pieces> make_polygons(PolygonFaces faces, std::vector<Vec3> P,
+                                            std::vector<TypedParam> vars);
 
 } // namespace render

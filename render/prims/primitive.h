@@ -30,6 +30,16 @@ struct PrimitiveState {
   std::shared_ptr<const SolidTree> solid;   ///< that the surface bounds a primitive of; null: none
   SolidTree::NodeIndex solid_primitive = 0; ///< which
   LevelPart level; ///< the samples that see it, where a level of detail goes over into another
+
+  /// Of a box in object space, in camera space, displacement and motion included. Points go in straight
+  /// lines: what holds all keys holds all that is between them.
+  Box camera_bound(const Box& shape) const {
+    Box box = transform_box(object_to_camera, shape);
+    for (const auto& key : motion)
+      box.add(transform_box(key.value, shape));
+    box.grow(displacement_bound);
+    return box;
+  }
 };
 
 struct Primitive {
@@ -42,18 +52,14 @@ struct Primitive {
   bool one_across = false;       ///< one micropolygon in u: hair
 
   const Attributes& attributes() const { return *state->attributes; }
-  /// Box of a part in camera space, displacement and motion included. Points go in straight lines: what holds
-  /// all keys holds all that is between them.
-  Box camera_bound(const UvRect& rect) const {
+  /// Box of a part in object space, at all times.
+  Box bound(const UvRect& rect) const {
     Box shape = geometry->bound(rect);
     for (const auto& key : deformation)
       shape.add(key.value->bound(rect));
-    Box box = transform_box(state->object_to_camera, shape);
-    for (const auto& key : state->motion)
-      box.add(transform_box(key.value, shape));
-    box.grow(state->displacement_bound);
-    return box;
+    return shape;
   }
+  Box camera_bound(const UvRect& rect) const { return state->camera_bound(bound(rect)); }
 };
 
 } // namespace render

@@ -25,8 +25,8 @@ struct GridTask {
 
 struct SplitSettings {
   const Camera* camera = nullptr;
-  Vec2 raster_min, raster_max; ///< the area samples can lie in
-  int grid_size = 256;         ///< micropolygons in a grid, at most
+  Vec2 raster_min{0.0f}, raster_max{0.0f}; ///< the area samples can lie in
+  int grid_size = 256;                     ///< micropolygons in a grid, at most
   int eye_splits = 10;
   bool motion = true; ///< what moves is drawn moving
 };

@@ -273,7 +273,7 @@ public:
       add_var(v);
   }
 
-  slvm::Result<size_t> run(const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) {
+  slvm::Result<std::vector<Primitive>> run() {
     if (mesh_.loop &&
         std::any_of(mesh_.nvertices.begin(), mesh_.nvertices.end(), [](int n) { return n != 3; }))
       return slvm::Error{"the scheme \"loop\" takes triangles only"};
@@ -284,7 +284,7 @@ public:
     Bfr::RefinerSurfaceFactory<> factory(*refiner);
     bool all_quads = !mesh_.loop && std::all_of(mesh_.nvertices.begin(), mesh_.nvertices.end(),
                                                 [](int n) { return n == 4; });
-    size_t made = 0;
+    std::vector<Primitive> made;
     for (size_t face = 0; face < mesh_.nvertices.size(); ++face) {
       auto surface = std::make_shared<FaceSurface>(positions_, 3);
       auto n = static_cast<size_t>(mesh_.nvertices[face]);
@@ -295,8 +295,7 @@ public:
         // Neighbours must halve their common side alike: one face in quarters, all in quarters.
         for (size_t q = 0; q < (all_quads ? 1 : n); ++q) {
           if (!all_quads) part.quarter = static_cast<int>(q);
-          add(surface, part, surfaces, face, state, out);
-          ++made;
+          add(surface, part, surfaces, face, made);
         }
       }
     }
@@ -399,9 +398,8 @@ private:
 
   void add(const std::shared_ptr<const FaceSurface>& surface, const FacePart& part,
            const std::vector<std::shared_ptr<FaceSurface>>& surfaces, size_t face,
-           const std::shared_ptr<const PrimitiveState>& state, std::vector<Primitive>& out) const {
+           std::vector<Primitive>& out) const {
     Primitive& primitive = out.emplace_back();
-    primitive.state = state;
     if (surface->polynomial()) {
       std::vector<float> b = bezier_values(*surface, part);
       std::array<Vec3, 16> points;
@@ -453,11 +451,11 @@ private:
 
 } // namespace
 
-slvm::Result<size_t> add_subdivision(const SubdivisionMesh& mesh, std::span<const Vec3> P,
-                                     std::span<const TypedParam> vars,
-                                     const std::shared_ptr<const PrimitiveState>& state,
-                                     std::vector<Primitive>& out) {
-  return MeshBuilder(mesh, P, vars).run(state, out);
+slvm::Result<std::shared_ptr<const Pieces>>
+make_subdivision(const SubdivisionMesh& mesh, std::span<const Vec3> P, std::span<const TypedParam> vars) {
+  auto made = MeshBuilder(mesh, P, vars).run();
+  if (!made) return slvm::Error{made.error()};
+  return std::shared_ptr<const Pieces>(std::make_shared<ListedPieces>(std::move(*made)));
 }
 
 } // namespace render

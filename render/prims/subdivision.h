@@ -2,7 +2,7 @@
 // evaluates the limit surface. Regular faces are bicubic patches, the same as everywhere else.
 #pragma once
 
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 #include "render/state/declaration.h"
 #include "slvm/support/result.h"
 
@@ -26,11 +26,9 @@ struct SubdivisionMesh {
   bool smooth_triangles = false; ///< catmull-clark: other weights for what becomes of triangles
 };
 
-/// Appends the primitives. Variables as for PointsPolygons; their vertex numbers are in range. The error says
+/// The surfaces. Variables as for PointsPolygons; their vertex numbers are in range. The error says
 /// what is wrong with the mesh.
-slvm::Result<size_t> add_subdivision(const SubdivisionMesh& mesh, std::span<const Vec3> P,
-                                     std::span<const TypedParam> vars,
-                                     const std::shared_ptr<const PrimitiveState>& state,
-                                     std::vector<Primitive>& out);
+slvm::Result<std::shared_ptr<const Pieces>>
+make_subdivision(const SubdivisionMesh& mesh, std::span<const Vec3> P, std::span<const TypedParam> vars);
 
 } // namespace render

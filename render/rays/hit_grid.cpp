@@ -83,16 +83,18 @@ Footprint footprint_on(const HitRays& rays, const HitRay& hit, const SurfaceSpot
 }
 
 void HitGrid::find_runs(const Scene& scene, std::span<const HitRay> hits) {
-  moved_.clear();
+  primitives_.clear();
+  primitives_.reserve(hits.size()); // runs point to them
   runs_.clear();
+  first_ = scene.primitives[hits.front().place.primitive];
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
     const HitRay& hit = hits[first];
-    const Primitive* p = &scene.primitives[hit.place.primitive];
-    const bool moves = !p->deformation.empty() || !p->state->motion.empty();
+    Primitive p = scene.primitives[hit.place.primitive];
+    const bool moves = !p.deformation.empty() || !p.state->motion.empty();
     for (end = first + 1; end < hits.size(); ++end)
       if (hits[end].place.primitive != hit.place.primitive || (moves && hits[end].time != hit.time)) break;
-    if (moves && hit.time > 0) p = &moved_.emplace_back(primitive_at(*p, hit.time));
-    runs_.push_back({p, first, end - first, hit.place.displaced});
+    if (moves && hit.time > 0) p = primitive_at(p, hit.time);
+    runs_.push_back({&primitives_.emplace_back(std::move(p)), first, end - first, hit.place.displaced});
   }
 }
 
@@ -296,8 +298,7 @@ void HitGrid::dice(const Scene& scene, const HitRays& rays, std::span<const HitR
     dice_beside(diced);
   }
   dice_variables(parts_, context, diced, grid);
-  // A primitive that was moved in time is this grid's only.
-  grid.user = &scene.primitives[hits[0].place.primitive];
+  grid.user = &first_; // its state is that of the scene, not moved in time
   if (beside) {
     stretch(read);
     step_along_tangents();

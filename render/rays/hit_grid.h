@@ -8,8 +8,6 @@
 #include "render/prims/dice.h"
 #include "render/rays/ray_geometry.h"
 
-#include <deque>
-
 namespace render {
 
 /// A ray that hit something.
@@ -96,7 +94,8 @@ private:
   void set_rays(const HitRays& rays, std::span<const HitRay> hits, const ReadVariables& read);
   void aim(size_t points);
 
-  std::deque<Primitive> moved_; ///< primitives as they are at the time of a ray
+  std::vector<Primitive> primitives_; ///< of the runs, as they are at the time of a ray
+  Primitive first_;                   ///< the first of them as it is when the shutter opens
   std::vector<Run> runs_;
   std::vector<SurfacePoints> parts_;
   size_t hits_ = 0;

@@ -155,6 +155,7 @@ struct HitShader::Worker {
   std::vector<uint32_t> bucket_of; ///< by number of the hit
   std::vector<uint32_t> table;     ///< buckets by a hash of their primitives, kNone where there is none
   std::vector<uint32_t> in_groups; ///< buckets
+  std::vector<size_t> group_ends;  ///< of each group that follows another in the hits' new order
 };
 
 class HitShader::WorkerLease {
@@ -199,8 +200,8 @@ struct HitShader::Demand {
 
 /// What is the same for the hits of a batch that can be diced together.
 struct HitShader::Work {
-  const Primitive* primitive = nullptr;
-  slvm::ShaderSet set; ///< those that run
+  bool moves_points = false; ///< rays see displacements
+  slvm::ShaderSet set;       ///< those that run
   std::vector<const slvm::Instance*> volumes;
   bool plain = false;                 ///< no shader runs: the look of the primitive
   const PhotonMap* photons = nullptr; ///< or that of photons
@@ -295,7 +296,7 @@ std::string HitShader::Groups::variables_of(const Primitive& p) {
 HitShader::HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
                      const BoundShaders& shaders, slvm::RendererServices& services)
     : scene_(scene), machine_(machine), shaders_(shaders), services_(services),
-      quiet_(std::make_unique<QuietServices>(services)), group_(scene.primitives.size()),
+      quiet_(std::make_unique<QuietServices>(services)), group_of_run_(scene.primitives.runs().size()),
       groups_(std::make_unique<Groups>()) {
   const Options& o = scene.options;
   dice_ = {&camera, &machine.strings(), o.shutter_open + o.shutter_offset, o.shutter_close - o.shutter_open};
@@ -328,10 +329,13 @@ void HitShader::positions(const Primitive& primitive, const UvRect& rect, int nu
     P[k] = {from.get(0, k), from.get(1, k), from.get(2, k)};
 }
 
+/// With the lock.
 uint32_t HitShader::group_of(uint32_t primitive) {
-  uint32_t& known = group_[primitive];
+  const size_t number = scene_.primitives.run_number(primitive);
+  const PrimitiveList::Run& run = scene_.primitives.runs()[number];
+  uint32_t& known = run.pieces->vars_are_alike() ? group_of_run_[number] : group_of_[primitive];
   if (known) return known;
-  const Primitive& p = scene_.primitives[primitive];
+  const Primitive p = run.primitive(primitive - run.first);
   Groups::Key key = Groups::key_of(p, *shaders_.find(&p.attributes()));
   auto [it, is_new] = groups_->numbers.try_emplace(std::move(key), 0);
   // The first primitive of the group: a number that does not depend on what was hit first is not needed, as
@@ -371,7 +375,11 @@ std::span<const HitRay> HitShader::sort(std::span<const HitRay> hits, Worker& wo
     }
     groups = groups_->numbers.size();
   }
-  if (buckets.size() == 1) return hits;
+  worker.group_ends.clear();
+  if (buckets.size() == 1) {
+    worker.group_ends.push_back(hits.size());
+    return hits;
+  }
   // Groups in the order of their first hits.
   std::vector<uint32_t>& in_groups = worker.in_groups;
   in_groups.resize(buckets.size());
@@ -383,11 +391,14 @@ std::span<const HitRay> HitShader::sort(std::span<const HitRay> hits, Worker& wo
   std::sort(in_groups.begin(), in_groups.end(), [&](uint32_t a, uint32_t b) {
     return std::pair(first_of[buckets[a].group], a) < std::pair(first_of[buckets[b].group], b);
   });
-  uint32_t place = 0;
+  uint32_t place = 0, last = buckets[in_groups[0]].group;
   for (uint32_t k : in_groups) {
+    if (buckets[k].group != last) worker.group_ends.push_back(place);
+    last = buckets[k].group;
     buckets[k].first = place;
     place += buckets[k].count;
   }
+  worker.group_ends.push_back(hits.size());
   std::vector<HitRay>& out = worker.in_order;
   out.resize(hits.size());
   for (size_t i = 0; i < hits.size(); ++i)
@@ -419,16 +430,13 @@ void HitShader::shade(std::span<const HitRay> all, const HitBatch& batch,
   Worker& worker = *lease;
   const std::span<const HitRay> hits = sort(all, worker);
   std::optional<Work> work;
-  uint32_t last = 0;
+  auto next_group = worker.group_ends.begin();
   size_t group_end = 0, most = 0;
-  auto group = [&](size_t i) { return group_[hits[i].place.primitive]; };
-  auto state = [&](const HitRay& hit) { return scene_.primitives[hit.place.primitive].state.get(); };
+  auto state = [&](const HitRay& hit) { return &scene_.primitives.state(hit.place.primitive); };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {
     if (first == group_end) {
-      last = group(first);
       prepare(scene_.primitives[hits[first].place.primitive], batch, outputs, demand, work.emplace());
-      while (group_end < hits.size() && group(group_end) == last)
-        ++group_end;
+      group_end = *next_group++;
       // Grids of about the same size, none of a few points.
       const size_t count = group_end - first,
                    grids = std::max<size_t>((count + kHitsAGrid / 2) / kHitsAGrid, 1);
@@ -475,7 +483,7 @@ const slvm::Instance* HitShader::narrowed(const slvm::Instance* surface,
 
 void HitShader::prepare(const Primitive& primitive, const HitBatch& batch,
                         std::span<const slvm::RayOutput> outputs, const Demand& demand, Work& w) {
-  w.primitive = &primitive;
+  w.moves_points = primitive.attributes().rays.displacements;
   w.outputs = outputs;
   const BoundAttributes& bound = *shaders_.find(&primitive.attributes());
   w.set = bound.shaders;
@@ -600,7 +608,7 @@ void HitShader::shade_grid(Worker& worker, std::span<const HitRay> hits, const H
   if (set.displacement) {
     worker.hits.before_displacement();
     context.displace(set, grid);
-    worker.hits.after_displacement(work.primitive->attributes().rays.displacements);
+    worker.hits.after_displacement(work.moves_points);
     take(context, grid, set.displacement, From::kDisplacement, hits, outputs);
   }
   if (!demand.surface) return;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace render {
@@ -89,8 +90,9 @@ private:
   std::vector<std::unique_ptr<Worker>> idle_, idle_displacers_;
   std::vector<std::vector<HitRay>> lists_;
   std::mutex groups_mutex_;
-  std::vector<uint32_t>
-      group_; ///< by primitive: number of the group that can be diced together; 0: not known yet
+  /// Number of the group that can be diced together, by run of the scene's primitives; 0: not known yet.
+  std::vector<uint32_t> group_of_run_;
+  std::unordered_map<uint32_t, uint32_t> group_of_; ///< by primitive, of runs whose variables differ
   struct Groups;
   std::unique_ptr<Groups> groups_;
   /// Surfaces of which only some outputs are wanted, by instance and names; null: all of it is needed.

@@ -52,19 +52,19 @@ void RayGeometry::make(Item& item) {
   std::vector<float> moments{0};
   if (item.traits.moving) {
     std::set<float> keys;
-    for (const ItemPart& part : item.parts)
-      for (float t : motion_times(scene_.primitives[part.primitive]))
+    for (const ItemPart& part : item.parts->list)
+      for (float t : motion_times(scene_.primitives[item.first_primitive + part.primitive]))
         keys.insert(t);
     if (!keys.empty()) moments = moments_of(keys);
   }
   std::vector<QuadMesh> parts;
-  parts.reserve(item.parts.size());
-  for (size_t i = 0; i < item.parts.size(); ++i)
-    tessellate(scene_.primitives[item.parts[i].primitive], item.rates[i], displacer_, moments,
-               item.placed ? &item.to_object : nullptr, parts);
+  parts.reserve(item.parts->list.size());
+  for (size_t i = 0; i < item.parts->list.size(); ++i)
+    tessellate(scene_.primitives[item.first_primitive + item.parts->list[i].primitive], item.parts->rates[i],
+               displacer_, moments, item.placed ? &item.to_object : nullptr, parts);
   item.faces = device_.build(joined(parts, moments.size()));
   ++made_;
-  faces_ += item.faces_all;
+  faces_ += item.parts->faces;
   item.ready.store(item.faces.get(), std::memory_order_release);
   item.made.store(true, std::memory_order_release);
 }
@@ -96,37 +96,34 @@ size_t PartIndex::find(std::span<const ItemPart> parts, uint32_t face) const {
   return low;
 }
 
-const Primitive& RayGeometry::primitive_of(const Item& item, uint32_t face) const {
-  return scene_.primitives[part_of(item, face).primitive];
-}
-
 uint32_t RayGeometry::primitive(const RayHit& hit) const {
-  return part_of(*items_[hit.item], hit.face).primitive;
+  return primitive_of(*items_[hit.item], hit.face);
 }
 
 SurfacePlace RayGeometry::place(const RayHit& hit) {
-  const ItemPart& part = part_of(*items_[hit.item], hit.face);
+  const Item& item = *items_[hit.item];
+  const ItemPart& part = item.parts->list[item.parts->find(hit.face)];
   const uint32_t face = hit.face - part.first_face, row = face >> part.log_u,
                  column = face & ((1u << part.log_u) - 1);
   auto parameter = [](uint32_t whole, float rest, uint8_t log) {
     const float face_size = std::bit_cast<float>((127u - log) << 23); // 2^-log
     return std::clamp((static_cast<float>(whole) + rest) * face_size, 0.0f, 1.0f);
   };
-  const FaceScene* made = items_[items_[hit.item]->model]->ready.load(std::memory_order_acquire);
+  const FaceScene* made = items_[item.model]->ready.load(std::memory_order_acquire);
   const Vec2 at = (made ? made : faces(hit.item))->on_patch(hit);
-  return {part.primitive, parameter(column, at.x, part.log_u), parameter(row, at.y, part.log_v),
-          part.displaced};
+  return {item.first_primitive + part.primitive, parameter(column, at.x, part.log_u),
+          parameter(row, at.y, part.log_v), part.displaced};
 }
 
 /// The patches of one request are one surface.
 bool RayGeometry::same_surface(uint32_t index, uint32_t face, uint32_t other) const {
   const Item& item = *items_[index];
-  return primitive_of(item, face).state == primitive_of(item, other).state;
+  return &state_of(item, face) == &state_of(item, other);
 }
 
 RayOpacity RayGeometry::shadow(const RayHit& hit) const {
   const Item& item = *items_[hit.item];
-  return item.solid ? primitive_of(item, hit.face).attributes().rays.shadow() : item.traits.shadow;
+  return item.solid ? state_of(item, hit.face).attributes->rays.shadow() : item.traits.shadow;
 }
 
 namespace {
@@ -166,11 +163,12 @@ void RayGeometry::find_seen(slvm::RayKind kind, std::string_view subset, Seen& o
       out.items[i] = is_visible(kind, t.specular, t.diffuse, t.shadow) && is_in(groups_[t.groups], subset);
       continue;
     }
-    out.surfaces.resize(scene_.primitives.size());
-    for (const ItemPart& part : items_[i]->parts) {
-      const RayAttributes& a = scene_.primitives[part.primitive].attributes().rays;
+    out.surfaces.resize(scene_.primitives.runs().size());
+    for (const ItemPart& part : items_[i]->parts->list) {
+      const size_t run = scene_.primitives.run_number(items_[i]->first_primitive + part.primitive);
+      const RayAttributes& a = scene_.primitives.runs()[run].attributes().rays;
       const bool seen = is_visible(kind, is_specular(a), a.diffuse, a.shadow()) && is_in(a.groups, subset);
-      out.surfaces[part.primitive] = seen;
+      out.surfaces[run] = seen;
       out.items[i] = out.items[i] || seen;
     }
   }

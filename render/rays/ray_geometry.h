@@ -4,7 +4,8 @@
 // each; the world (embree_world.h) knows their boxes. An item's faces are made when the first ray reaches its
 // box, by the thread of that ray, and dropped again, the longest unused first, when all faces together take
 // more memory than allowed. Faces depend on the scene only, never on which ray asked, so that nothing else
-// depends on when they were made. Objects that are instanced share the faces of their first instance.
+// depends on when they were made. Objects and meshes that are instanced share the faces of their first
+// instance.
 #pragma once
 
 #include "render/rays/ray_usage.h"
@@ -49,7 +50,7 @@ struct SurfacePlace {
 
 /// One of the primitives of an item, and where its faces are.
 struct ItemPart {
-  uint32_t primitive = 0; ///< of the scene
+  uint32_t primitive = 0; ///< of the scene, counted from Item::first_primitive on
   uint32_t first_face = 0;
   uint8_t log_u = 0, log_v = 0; ///< 2 to the power of these: faces along u and v
   bool displaced = false;       ///< its faces are those of the displaced surface
@@ -64,6 +65,16 @@ public:
 private:
   int shift_ = 0;               ///< a block is 2 to the power of this
   std::vector<uint32_t> first_; ///< part of the first face of each block, and the last part
+};
+
+/// What an item consists of; instances have it in common.
+struct ItemParts {
+  std::vector<ItemPart> list;
+  std::vector<FaceRate> rates; ///< of each part
+  uint32_t faces = 0;          ///< of all parts
+  PartIndex index;
+
+  size_t find(uint32_t face) const { return list.size() == 1 ? 0 : index.find(list, face); }
 };
 
 class RayGeometry final : public ItemFaces {
@@ -101,10 +112,8 @@ public:
 private:
   struct Item {
     RayTraits traits;
-    std::vector<ItemPart> parts;
-    std::vector<FaceRate> rates; ///< of each part
-    uint32_t faces_all = 0;      ///< of all parts
-    PartIndex part_index;
+    std::shared_ptr<const ItemParts> parts;
+    uint32_t first_primitive = 0;
     Box bounds;
     std::unique_ptr<const RaySolid> solid; ///< that the primitives bound; null: none
     uint32_t model = 0;                    ///< the item whose faces these are: itself, or the first instance
@@ -117,10 +126,13 @@ private:
     std::atomic<uint64_t> used{0};
   };
   class Gatherer;
-  static const ItemPart& part_of(const Item& item, uint32_t face) {
-    return item.parts.size() == 1 ? item.parts[0] : item.parts[item.part_index.find(item.parts, face)];
+  /// Number of the primitive of a face, in the scene.
+  static uint32_t primitive_of(const Item& item, uint32_t face) {
+    return item.first_primitive + item.parts->list[item.parts->find(face)].primitive;
   }
-  const Primitive& primitive_of(const Item& item, uint32_t face) const;
+  const PrimitiveState& state_of(const Item& item, uint32_t face) const {
+    return scene_.primitives.state(primitive_of(item, face));
+  }
 
   const FaceScene* faces(uint32_t item) override;
   void make(Item& item);
@@ -131,7 +143,7 @@ private:
   }
   struct Seen {
     std::vector<uint8_t> items;
-    std::vector<uint8_t> surfaces; ///< by primitive of the scene; only those of solids are told
+    std::vector<uint8_t> surfaces; ///< by run of the scene's primitives; only those of solids are told
   };
   void find_seen(slvm::RayKind kind, std::string_view subset, Seen& out) const;
 

@@ -34,9 +34,7 @@ std::vector<uint32_t> RayGeometry::bounding(uint32_t index, const RayRule& rule,
     const RayHit &x = crossings[a].hit, &y = crossings[b].hit;
     return x.distance != y.distance ? x.distance < y.distance : x.face < y.face;
   });
-  auto node_of = [&](uint32_t k) {
-    return solid.node[item.part_index.find(item.parts, crossings[k].hit.face)];
-  };
+  auto node_of = [&](uint32_t k) { return solid.node[item.parts->find(crossings[k].hit.face)]; };
   SolidHits hits;
   std::vector<uint32_t> numbers; // of what is in `hits`
   std::vector<uint8_t> done(order.size());
@@ -70,11 +68,11 @@ std::vector<uint32_t> RayGeometry::bounding(uint32_t index, const RayRule& rule,
 
 /// Every surface of a solid has its own visibility, groups and sides; all of them bound it.
 bool RayGeometry::is_seen(const Item& item, const RayRule& rule, const RayCrossing& crossing) const {
-  const uint32_t number = item.parts[item.part_index.find(item.parts, crossing.hit.face)].primitive;
+  const size_t number = scene_.primitives.run_number(primitive_of(item, crossing.hit.face));
   if (rule.seen_surfaces && !rule.seen_surfaces[number]) return false;
-  const Primitive& p = scene_.primitives[number];
-  const bool front = (crossing.along < 0) != p.attributes().flips_normals(p.state->mirrored);
-  if (p.attributes().sides == 1 && !front) return false;
+  const PrimitiveList::Run& run = scene_.primitives.runs()[number];
+  const bool front = (crossing.along < 0) != run.attributes().flips_normals(run.state->mirrored);
+  if (run.attributes().sides == 1 && !front) return false;
   return rule.sides == slvm::HitSides::kBoth || front == (rule.sides == slvm::HitSides::kFront);
 }
 

@@ -103,6 +103,12 @@ bool is_displaced_for_rays(const Primitive& p, const Displacer* displacer) {
 
 namespace {
 
+/// What may be left out at the nearest point of a box.
+float tolerance_in(const Box& box, const Camera& camera, const Attributes& attributes) {
+  const float pixel = pixel_size(camera, glm::clamp(Vec3(0.0f), box.min, box.max));
+  return std::max(std::min(kDeviation * pixel, kPartOfBias * attributes.rays.bias), kLeastDeviation * pixel);
+}
+
 /// Decides rates of lines and surfaces.
 class RateRule {
 public:
@@ -110,33 +116,29 @@ public:
       : attributes_(p.attributes()), camera_(camera), displaced_(displaced) {}
 
   int along(const Extent& e) const {
-    const float pixel = pixel_at(e.box);
-    if (displaced_)
+    if (displaced_) {
+      const float pixel = pixel_size(camera_, glm::clamp(Vec3(0.0f), e.box.min, e.box.max));
       return power_of_two(e.length / (pixel * std::sqrt(attributes_.shading_rate) * kDisplacedStep));
+    }
     // A chord leaves an arc by an eighth of the second difference; it falls with the square of their number.
-    return power_of_two(kProbes * std::sqrt(e.bend / 8 / tolerance(pixel)));
+    return power_of_two(kProbes * std::sqrt(e.bend / 8 / tolerance_in(e.box, camera_, attributes_)));
   }
   /// The two triangles of a twisted face leave it by a quarter of the twist, which falls with both numbers.
   int across_twist(float twist, const Box& box) const {
-    return displaced_ ? 1 : power_of_two(kProbes * std::sqrt(twist / 4 / tolerance(pixel_at(box))));
+    return displaced_
+               ? 1
+               : power_of_two(kProbes * std::sqrt(twist / 4 / tolerance_in(box, camera_, attributes_)));
   }
 
 private:
-  float pixel_at(const Box& box) const {
-    return pixel_size(camera_, glm::clamp(Vec3(0.0f), box.min, box.max));
-  }
-  float tolerance(float pixel) const {
-    return std::max(std::min(kDeviation * pixel, kPartOfBias * attributes_.rays.bias),
-                    kLeastDeviation * pixel);
-  }
-
   const Attributes& attributes_;
   const Camera& camera_;
   bool displaced_;
 };
 
-bool bends(const Extent& e) {
-  return e.bend > 1e-5f * e.length;
+/// What rounding bends of a straight line does not count: small faces far from the origin have much of it.
+bool bends(const Primitive& p, const Extent& e) {
+  return !p.geometry->ruled() && e.bend > 1e-5f * e.length;
 }
 
 } // namespace
@@ -163,8 +165,8 @@ FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced, 
   }
   // Closed surfaces must not fall together.
   const auto [fewest_u, fewest_v] = p.geometry->coarsest();
-  if (bends(u)) out.u = std::max(out.u, std::min(fewest_u, kProbes));
-  if (bends(v)) out.v = std::max(out.v, std::min(fewest_v, kProbes));
+  if (bends(p, u)) out.u = std::max(out.u, std::min(fewest_u, kProbes));
+  if (bends(p, v)) out.v = std::max(out.v, std::min(fewest_v, kProbes));
   if (alone) {
     out.sides = {out.u, out.u, out.v, out.v};
     return out;
@@ -175,11 +177,15 @@ FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced, 
   for (size_t side = 0; side < 4; ++side) {
     Extent e;
     e.add(&P[static_cast<size_t>(kSides[side].first)], kSides[side].second);
-    out.sides[side] = std::max(rule.along(e), bends(e) ? fewest : 1);
+    out.sides[side] = std::max(rule.along(e), bends(p, e) ? fewest : 1);
   }
   out.u = std::max({out.u, out.sides[0], out.sides[1]});
   out.v = std::max({out.v, out.sides[2], out.sides[3]});
   return out;
+}
+
+float fineness_in(const Box& box, const Camera& camera, const Attributes& attributes) {
+  return 1 / tolerance_in(box, camera, attributes);
 }
 
 FaceRate finer_of(const FaceRate& a, const FaceRate& b) {

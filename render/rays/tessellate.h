@@ -45,6 +45,8 @@ bool is_displaced_for_rays(const Primitive&, const Displacer*);
 FaceRate measure_rate(const Primitive&, const Camera&, bool displaced, bool alone = true);
 /// Makes the patches of one request coarser where they have too many faces together; sides still meet.
 void limit_faces(std::span<FaceRate> rates);
+/// How fine the faces in a box of camera space have to be: one over the size of what may be left out there.
+float fineness_in(const Box&, const Camera&, const Attributes&);
 /// As fine as both.
 FaceRate finer_of(const FaceRate&, const FaceRate&);
 

@@ -105,7 +105,7 @@ void RayTracer::shade_layers(const Shooter& by, const slvm::RayOptions& options,
       if (opacity == RayOpacity::kTransparent) continue;
       if (opacity == RayOpacity::kOpaque) path.through = Color(0.0f);
       if (opacity == RayOpacity::kOs) {
-        const Primitive& p = scene_.primitives[geometry_->primitive(layer)];
+        const Primitive p = scene_.primitives[geometry_->primitive(layer)];
         if (const Color* constant = constant_opacity(p)) {
           path.through *= Color(1.0f) - *constant;
           continue;

@@ -61,8 +61,10 @@ ReadVariables read_by(const slvm::Program& reader, std::span<const std::string> 
 
 } // namespace
 
-AreaEmitter::AreaEmitter(std::vector<Primitive> surface, uint32_t samples, const DiceContext& context)
-    : primitives_(std::move(surface)), samples_(samples), context_(context) {
+AreaEmitter::AreaEmitter(PrimitiveList surface, uint32_t samples, const DiceContext& context)
+    : surface_(std::move(surface)), samples_(samples), context_(context) {
+  for (Primitive p : surface_)
+    primitives_.push_back(std::move(p));
   sort_primitives();
   lattices_.resize(primitives_.size());
   double area = 0;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "render/prims/dice.h"
+#include "render/prims/primitive_list.h"
 #include "slvm/light_emitter.h"
 
 #include <memory>
@@ -19,7 +20,7 @@ namespace render {
 class AreaEmitter final : public slvm::LightEmitter {
 public:
   /// `samples` for each lit point. The context's string pool must outlive this.
-  AreaEmitter(std::vector<Primitive> surface, uint32_t samples, const DiceContext& context);
+  AreaEmitter(PrimitiveList surface, uint32_t samples, const DiceContext& context);
 
   /// In camera space.
   double area() const { return row_ends_.empty() ? 0 : row_ends_.back(); }
@@ -54,6 +55,7 @@ private:
   Spot spot(float x, float y) const;
   void fill(std::span<const Spot> spots, const ReadVariables& read, slvm::Grid& part) const;
 
+  PrimitiveList surface_;             ///< keeps what `primitives_` refer to
   std::vector<Primitive> primitives_; ///< those that can be diced together side by side
   std::vector<uint32_t> group_;       ///< of each primitive: which of those it is
   std::vector<Lattice> lattices_;

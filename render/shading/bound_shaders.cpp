@@ -71,7 +71,7 @@ class BoundShaders::Binder {
 public:
   explicit Binder(BoundShaders& out) : out_(out) {}
 
-  void bind_all(std::span<const Primitive> primitives);
+  void bind_all(const PrimitiveList& primitives);
   const slvm::Instance* bind(const std::shared_ptr<const ShaderRequest>& request);
 
 private:
@@ -99,17 +99,22 @@ private:
 };
 
 /// Sets of attributes with an instance that was bound too narrowly are bound again.
-void BoundShaders::Binder::bind_all(std::span<const Primitive> primitives) {
-  const VarSource* last = nullptr; // the faces of a mesh have the same variables
-  for (const Primitive& p : primitives) {
-    if (p.vars.source() == last) continue;
-    last = p.vars.source();
-    for (const PatchVar& v : p.vars)
-      variables_.insert(v.name);
+void BoundShaders::Binder::bind_all(const PrimitiveList& primitives) {
+  std::set<const Pieces*> known;
+  for (const PrimitiveList::Run& run : primitives.runs()) {
+    if (!known.insert(run.pieces.get()).second) continue;
+    const VarSource* last = nullptr; // the faces of a mesh have the same variables
+    for (uint32_t k = 0; k < run.count; ++k) {
+      const Primitive p = run.primitive(k);
+      if (p.vars.source() == last) continue;
+      last = p.vars.source();
+      for (const PatchVar& v : p.vars)
+        variables_.insert(v.name);
+    }
   }
   std::set<const Attributes*> seen;
-  for (const Primitive& p : primitives) {
-    const std::shared_ptr<const Attributes>& a = p.state->attributes;
+  for (const PrimitiveList::Run& run : primitives.runs()) {
+    const std::shared_ptr<const Attributes>& a = run.state->attributes;
     if (!seen.insert(a.get()).second) continue;
     auto bound = bind(a);
     auto it = out_.attributes_.find(a.get());
@@ -292,14 +297,14 @@ BoundShaders::BoundShaders(const Scene& scene, const slvm::Machine& machine, Sha
 
 /// The surfaces of area lights. All of a light are there when the first of them is: those of procedurals are
 /// made before.
-void BoundShaders::find_emitters(std::span<const Primitive> primitives) {
+void BoundShaders::find_emitters(const PrimitiveList& primitives) {
   std::vector<const ShaderRequest*> order;
-  std::unordered_map<const ShaderRequest*, std::vector<Primitive>> surfaces;
-  for (const Primitive& p : primitives)
-    if (const ShaderRequest* light = p.attributes().area_light.get()) {
-      std::vector<Primitive>& surface = surfaces[light];
+  std::unordered_map<const ShaderRequest*, PrimitiveList> surfaces;
+  for (const PrimitiveList::Run& run : primitives.runs())
+    if (const ShaderRequest* light = run.attributes().area_light.get()) {
+      PrimitiveList& surface = surfaces[light];
       if (surface.empty()) order.push_back(light);
-      surface.push_back(p);
+      surface.add(run.state, run.pieces);
     }
   DiceContext context;
   context.strings = &machine_.strings();
@@ -307,9 +312,9 @@ void BoundShaders::find_emitters(std::span<const Primitive> primitives) {
   context.dtime = options_.shutter_close - options_.shutter_open;
   for (const ShaderRequest* light : order) {
     if (emitters_.contains(light)) continue;
-    std::vector<Primitive>& surface = surfaces[light];
-    if (std::any_of(surface.begin(), surface.end(),
-                    [](const Primitive& p) { return p.attributes().displacement != nullptr; }))
+    PrimitiveList& surface = surfaces[light];
+    if (std::any_of(surface.runs().begin(), surface.runs().end(),
+                    [](const PrimitiveList::Run& run) { return run.attributes().displacement != nullptr; }))
       diagnostics_.warning(light->where, "rib-shader",
                            "AreaLightSource: its surface sends light from where it is without displacement");
     auto emitter = std::make_shared<const AreaEmitter>(std::move(surface), light->samples, context);
@@ -317,7 +322,7 @@ void BoundShaders::find_emitters(std::span<const Primitive> primitives) {
   }
 }
 
-void BoundShaders::add(std::span<const Primitive> primitives) {
+void BoundShaders::add(const PrimitiveList& primitives) {
   find_emitters(primitives);
   Binder(*this).bind_all(primitives);
 }

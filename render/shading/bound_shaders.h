@@ -57,7 +57,7 @@ public:
   BoundShaders(const Scene& scene, const slvm::Machine& machine, ShaderCache& cache,
                slvm::Diagnostics& diagnostics);
   /// Binds what further primitives refer to. One call at a time; other threads may go on asking.
-  void add(std::span<const Primitive> primitives);
+  void add(const PrimitiveList& primitives);
 
   /// Never null for attributes of the scene. What it points to stays.
   const BoundAttributes* find(const Attributes* attributes) const;
@@ -65,7 +65,7 @@ public:
 
 private:
   class Binder;
-  void find_emitters(std::span<const Primitive> primitives);
+  void find_emitters(const PrimitiveList& primitives);
   /// A request bound for primitives whose variables may replace these parameters. Where later ones have more,
   /// it is bound again; pictures do not depend on which is used.
   struct BoundRequest {

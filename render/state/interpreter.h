@@ -6,6 +6,7 @@
 #include "render/prims/motion.h"
 #include "render/rib/ri_error.h"
 #include "render/rib/ri_target.h"
+#include "render/state/mesh_digest.h"
 #include "render/state/plug_in.h"
 #include "render/state/procedural.h"
 #include "render/state/program.h"
@@ -13,6 +14,7 @@
 #include "slvm/support/diagnostics.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <set>
 #include <span>
@@ -59,6 +61,8 @@ public:
   /// Requests archives and instances may repeat in all. A few levels that each read the next one ten times
   /// are harmless; a row of levels that each read the next one twice never ends.
   size_t most_replayed = 100'000'000;
+  /// Surfaces in a world: their numbers are of 32 bits.
+  size_t most_primitives = std::numeric_limits<uint32_t>::max();
   /// Whether RunProgram may run what a scene names.
   bool allow_programs = false;
   /// Whether it may run what requests name that do not come from a file: those of a C program.
@@ -109,10 +113,10 @@ private:
     std::vector<float> times;
     size_t calls = 0; ///< seen so far
     RequestId kind = RequestId::kCount;
-    MotionMatrices before;                      ///< the transformation at each time when the block began
-    MotionMatrices transforms;                  ///< what the calls made of it
-    size_t first_primitive = 0, primitives = 0; ///< of the first call
-    std::vector<MotionShapes> shapes;           ///< of each of these
+    MotionMatrices before;     ///< the transformation at each time when the block began
+    MotionMatrices transforms; ///< what the calls made of it
+    size_t first_primitive = 0;
+    std::vector<TimedValue<PrimitiveList>> shapes; ///< what the calls made, the first time from there on
   };
   /// Requests kept for ObjectInstance or ArchiveInstance.
   struct Recording {
@@ -273,6 +277,8 @@ private:
   void quadric(const RequestCall&);
   void polygon(const RequestCall&);
   void points_polygons(const RequestCall&);
+  /// Adds what make() gives (null: nothing, reported), or what it gave for the same request before.
+  void add_mesh(const RequestCall&, const std::function<std::shared_ptr<const Pieces>()>& make);
   /// Class sizes under the current basis. Nothing, with a message: the counts contradict each other.
   std::optional<ClassSizes> sizes_of(const RequestCall&);
   void patch(const RequestCall&);
@@ -332,6 +338,8 @@ private:
   };
   std::map<std::string, Content> contents_;
   Scene scene_;
+  /// Meshes as long as they are in use, by what their requests say: instances share them.
+  std::map<MeshDigest, std::weak_ptr<const Pieces>> meshes_;
   /// By name; null: it failed. What procedurals hold of a plug-in is gone before the plug-in is.
   std::map<std::string, std::shared_ptr<PlugIn>> plug_ins_;
   size_t procedurals_ = 0;                   ///< seen so far in the world block

@@ -176,13 +176,14 @@ bool is_primitive(RequestId id) {
 
 /// A patch whose varying and vertex variables have four values.
 void Interpreter::add_patch(std::shared_ptr<const Geometry> geometry, std::span<const TypedParam> vars) {
-  Primitive& primitive = scene_.primitives.emplace_back();
+  Primitive primitive;
   primitive.state = primitive_state();
   primitive.geometry = std::move(geometry);
   for (const TypedParam& v : vars) {
     bool varies = interpolates(v.declaration.storage);
     primitive.vars.push_back(varies ? bilinear_var(v, {0, 1, 2, 3}) : constant_var(v, 0));
   }
+  scene_.primitives.push_back(std::move(primitive));
 }
 
 void Interpreter::quadric(const RequestCall& call) {

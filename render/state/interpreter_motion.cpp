@@ -54,10 +54,9 @@ void Interpreter::motion_end(const RequestCall& call) {
     motion_ = std::move(block.transforms);
     ctm_ = matrix_at(motion_, o.shutter_open);
   }
-  for (size_t i = 0; i < block.shapes.size(); ++i) {
-    Primitive& p = scene_.primitives[block.first_primitive + i];
-    p.geometry = shape_at(block.shapes[i], o.shutter_open);
-    p.deformation = clip_to_shutter(block.shapes[i], o.shutter_open, o.shutter_close);
+  if (!block.shapes.empty()) {
+    scene_.primitives.take_from(block.first_primitive);
+    add_deforming(std::move(block.shapes), o.shutter_open, o.shutter_close, scene_.primitives);
   }
 }
 
@@ -105,22 +104,18 @@ void Interpreter::motion_shape(const RequestCall& call, float time) {
   MotionBlock& block = *in_motion_;
   size_t before = scene_.primitives.size();
   call_handler(call);
-  size_t made = scene_.primitives.size() - before;
+  PrimitiveList made = scene_.primitives.take_from(before);
   if (block.calls == 1) {
     block.first_primitive = before;
-    block.primitives = made;
-    block.shapes.resize(made);
-  } else if (made != block.primitives) {
+    scene_.primitives.append(PrimitiveList(made));
+  } else if (const size_t first = block.shapes.front().value.size(); made.size() != first) {
     error(call,
-          fmt::format("this makes {} surfaces, at the first time of the motion block it was {}", made,
-                      block.primitives),
+          fmt::format("this makes {} surfaces, at the first time of the motion block it was {}", made.size(),
+                      first),
           RiError::kBadMotion);
-    scene_.primitives.resize(before);
     return;
   }
-  for (size_t i = 0; i < made; ++i)
-    block.shapes[i].push_back({time, scene_.primitives[before + i].geometry});
-  if (block.calls > 1) scene_.primitives.resize(before);
+  block.shapes.push_back({time, std::move(made)});
 }
 
 /// A transformation while the current one moves: it acts at all times.

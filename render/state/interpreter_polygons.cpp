@@ -28,7 +28,25 @@ void Interpreter::polygon(const RequestCall& call) {
   std::iota(face.vertices.begin(), face.vertices.end(), 0);
   face.loops_of_face = {static_cast<int>(loops.size())};
   face.loops = std::move(loops);
-  add_polygons(std::move(face), std::move(P), std::move(vars), primitive_state(), scene_.primitives);
+  scene_.primitives.add(primitive_state(), make_polygons(std::move(face), std::move(P), std::move(vars)));
+}
+
+void Interpreter::add_mesh(const RequestCall& call,
+                           const std::function<std::shared_ptr<const Pieces>()>& make) {
+  std::shared_ptr<const Pieces> pieces;
+  if (auto digest = digest_of(call, declarations_)) {
+    std::weak_ptr<const Pieces>& known = meshes_[*digest];
+    pieces = known.lock();
+    if (!pieces) known = pieces = make();
+  } else {
+    pieces = make();
+  }
+  if (!pieces) return;
+  if (scene_.primitives.size() + pieces->count() > most_primitives)
+    error(call, fmt::format("more than {} surfaces in a world; the mesh is skipped", most_primitives),
+          RiError::kLimit);
+  else
+    scene_.primitives.add(primitive_state(), std::move(pieces));
 }
 
 /// PointsPolygons and PointsGeneralPolygons.
@@ -41,14 +59,16 @@ void Interpreter::points_polygons(const RequestCall& call) {
   std::vector<int> loops_of_face(loops.size(), 1);
   if (general) loops_of_face.assign(call.integers(0).begin(), call.integers(0).end());
   if (loops.empty()) return; // exporters write empty meshes
-  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
-  std::vector<Vec3> P;
-  if (!take_positions(call, vars, P, false)) return;
-  std::span<const int> vertices = call.integers(first_argument + 1);
-  PolygonFaces faces{{vertices.begin(), vertices.end()}, {loops.begin(), loops.end()}, {}};
-  if (general) faces.loops_of_face = std::move(loops_of_face);
-  say_left_out(call, first_argument, "face", leave_out_bad_faces(faces, P, vars));
-  add_polygons(std::move(faces), std::move(P), std::move(vars), primitive_state(), scene_.primitives);
+  add_mesh(call, [&]() -> std::shared_ptr<const Pieces> {
+    std::vector<TypedParam> vars = primitive_vars(call, *sizes);
+    std::vector<Vec3> P;
+    if (!take_positions(call, vars, P, false)) return nullptr;
+    std::span<const int> vertices = call.integers(first_argument + 1);
+    PolygonFaces faces{{vertices.begin(), vertices.end()}, {loops.begin(), loops.end()}, {}};
+    if (general) faces.loops_of_face = std::move(loops_of_face);
+    say_left_out(call, first_argument, "face", leave_out_bad_faces(faces, P, vars));
+    return make_polygons(std::move(faces), std::move(P), std::move(vars));
+  });
 }
 
 } // namespace render

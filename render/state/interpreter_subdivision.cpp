@@ -114,20 +114,25 @@ void Interpreter::subdivision_mesh(const RequestCall& call) {
   mesh.vertices = call.integers(2);
   auto sizes = sizes_of(call);
   if (!sizes || mesh.nvertices.empty()) return; // exporters write empty meshes
-  std::vector<TypedParam> vars = primitive_vars(call, *sizes);
-  std::vector<Vec3> P;
-  if (!take_positions(call, vars, P, false) || !subdivision_tags(call, sizes->vertex, mesh)) return;
-  PolygonFaces faces{
-      {mesh.vertices.begin(), mesh.vertices.end()}, {mesh.nvertices.begin(), mesh.nvertices.end()}, {}};
-  say_left_out(call, 1, "face", leave_out_bad_faces(faces, P, vars, &mesh.holes));
-  mesh.nvertices = faces.loops;
-  mesh.vertices = faces.vertices;
-  if (mesh.nvertices.empty()) return;
-  auto made = add_subdivision(mesh, P, vars, primitive_state(), scene_.primitives);
-  if (!made)
-    error(call, made.error());
-  else if (*made == 0)
-    warn(call, "no face has a surface; a mesh with an open boundary needs the tag \"interpolateboundary\"");
+  add_mesh(call, [&]() -> std::shared_ptr<const Pieces> {
+    std::vector<TypedParam> vars = primitive_vars(call, *sizes);
+    std::vector<Vec3> P;
+    if (!take_positions(call, vars, P, false) || !subdivision_tags(call, sizes->vertex, mesh)) return nullptr;
+    PolygonFaces faces{
+        {mesh.vertices.begin(), mesh.vertices.end()}, {mesh.nvertices.begin(), mesh.nvertices.end()}, {}};
+    say_left_out(call, 1, "face", leave_out_bad_faces(faces, P, vars, &mesh.holes));
+    mesh.nvertices = faces.loops;
+    mesh.vertices = faces.vertices;
+    if (mesh.nvertices.empty()) return nullptr;
+    auto made = make_subdivision(mesh, P, vars);
+    if (!made) {
+      error(call, made.error());
+      return nullptr;
+    }
+    if ((*made)->count() == 0)
+      warn(call, "no face has a surface; a mesh with an open boundary needs the tag \"interpolateboundary\"");
+    return *made;
+  });
 }
 
 } // namespace render

@@ -1,4 +1,4 @@
-// Where a procedural's bound can be seen.
+// Where what is in a bound can be seen.
 #include "render/state/procedural.h"
 
 namespace render {
@@ -8,6 +8,10 @@ std::optional<SeenBound> seen_bound(const Procedural& p, const Camera& camera, V
   for (const auto& key : p.motion)
     box.add(transform_box(key.value, p.bound));
   box.grow(p.displacement_bound);
+  return seen_bound(box, camera, margin);
+}
+
+std::optional<SeenBound> seen_bound(const Box& box, const Camera& camera, Vec2 margin) {
   // A box that is not a number is seen nowhere; the negated tests catch it.
   if (!(box.max.z >= camera.near_plane()) || !(box.min.z <= camera.far_plane())) return {};
   PixelRect crop = camera.crop();

@@ -52,8 +52,9 @@ struct SeenBound {
   float area = 0;              ///< pixels its bound covers, at most
 };
 
-/// Nothing when it is outside the picture, to which `margin` pixels belong all round. What reaches behind the
-/// near plane may be anywhere in it.
+/// Of a box in camera space. Nothing when it is outside the picture, to which `margin` pixels belong all
+/// round. What reaches behind the near plane may be anywhere in it.
+std::optional<SeenBound> seen_bound(const Box&, const Camera&, Vec2 margin);
 std::optional<SeenBound> seen_bound(const Procedural&, const Camera&, Vec2 margin);
 
 } // namespace render

@@ -1,7 +1,7 @@
 // What a world block leaves for rendering.
 #pragma once
 
-#include "render/prims/primitive.h"
+#include "render/prims/primitive_list.h"
 #include "render/state/options.h"
 #include "render/state/procedural.h"
 
@@ -20,7 +20,7 @@ struct ObjectCopy {
 
 /// What a procedural holds.
 struct SceneContent {
-  std::vector<Primitive> primitives;
+  PrimitiveList primitives;
   std::vector<Procedural> procedurals;
   /// Spaces that CoordinateSystem named in it, to camera.
   std::map<std::string, Matrix4> spaces;
@@ -31,7 +31,7 @@ struct Scene {
   Matrix4 world_to_camera;
   /// Spaces named by CoordinateSystem, to camera.
   std::map<std::string, Matrix4> spaces;
-  std::vector<Primitive> primitives;
+  PrimitiveList primitives;
   std::vector<ObjectCopy> copies; ///< what rays may share; primitives may have changed since
   uint32_t solids = 0;            ///< so many CSG solids bound some of them
   /// Geometry that is made when the picture comes to it: Interpreter::make_content.

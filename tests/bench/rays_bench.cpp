@@ -316,8 +316,8 @@ void compare_with_grid(const ShadedScene& scene, int rounds) {
     for (int k = 0; k < 256; ++k) {
       task.rect = {static_cast<float>(k % 16) / 16, static_cast<float>(k % 16 + 1) / 16,
                    static_cast<float>(k / 16) / 16, static_cast<float>(k / 16 + 1) / 16};
-      render::dice(std::span(s.scene().primitives).subspan(static_cast<size_t>(k % scene.balls), 1), task,
-                   static_cast<uint64_t>(k), dice, {}, grid);
+      const render::Primitive ball = s.scene().primitives[static_cast<size_t>(k % scene.balls)];
+      render::dice({&ball, 1}, task, static_cast<uint64_t>(k), dice, {}, grid);
       context.shade(set, grid);
     }
   };

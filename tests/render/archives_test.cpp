@@ -164,6 +164,22 @@ TEST_F(Archives, what_doubles_at_each_level_ends) {
       HasSubstr("archives and instances have repeated more than 10000 requests; the rest is not read"));
 }
 
+TEST_F(Archives, instances_of_meshes_have_a_limit) {
+  slvm::SourceManager sources;
+  slvm::Diagnostics diagnostics;
+  size_t primitives = 0;
+  Interpreter interpreter(sources, diagnostics, [&](Scene& s) { primitives = s.primitives.size(); });
+  interpreter.most_primitives = 5;
+  interpreter.read_text("a.rib", "ObjectBegin 1 PointsPolygons [4 4] [0 1 2 3 3 2 1 0] "
+                                 "\"P\" [0 0 0 1 0 0 1 1 0 0 1 0] ObjectEnd WorldBegin ObjectInstance 1 "
+                                 "ObjectInstance 1 ObjectInstance 1 Sphere 1 -1 1 360 WorldEnd");
+  EXPECT_EQ(format_diagnostics(diagnostics, sources)
+                .find("a.rib:1:15: error: PointsPolygons: more than 5 "
+                      "surfaces in a world; the mesh is skipped\n"),
+            0u);
+  EXPECT_EQ(primitives, 5u);
+}
+
 TEST_F(Archives, objects_take_handles_of_both_kinds_and_keep_the_state_around) {
   Rendered r = in_world(
       "ObjectBegin \"ball\" Disk 0 1 360 Translate 9 9 9 ObjectEnd ObjectBegin 4 Disk 0 2 360 ObjectEnd "

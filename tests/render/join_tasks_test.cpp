@@ -86,7 +86,10 @@ TEST(JoinTasks, pieces_are_what_they_are_alone) {
   slvm::StringPool strings;
   DiceContext context{&j.camera, &strings, 0, 0};
   slvm::Grid whole(2, 2), alone(2, 2);
-  dice(j.scene.primitives, j.together[0], 1, context, {}, whole);
+  std::vector<Primitive> pieces;
+  for (const Primitive& p : j.scene.primitives)
+    pieces.push_back(p);
+  dice(pieces, j.together[0], 1, context, {}, whole);
   renew_geometry(j.camera, whole);
   EXPECT_EQ(whole.lattice, slvm::Lattice::kPieces);
   GridTask task = j.apart[0];
@@ -96,7 +99,7 @@ TEST(JoinTasks, pieces_are_what_they_are_alone) {
   ASSERT_EQ(whole.points(), 10 * points);
   using slvm::Global;
   for (size_t piece = 0; piece < 10; ++piece) {
-    dice({&j.scene.primitives[piece], 1}, task, 1, context, {}, alone);
+    dice({&pieces[piece], 1}, task, 1, context, {}, alone);
     renew_geometry(j.camera, alone);
     for (Global g : {Global::kP, Global::kN, Global::kNg, Global::kdPdu, Global::kdPdv, Global::ku,
                      Global::kv, Global::ks, Global::kt, Global::kdu, Global::kdv})

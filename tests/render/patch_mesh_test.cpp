@@ -189,7 +189,7 @@ TEST(PatchMesh, normals_at_collapsed_edges_and_corners_are_exact) {
   for (size_t j = 0; j < 4; ++j)
     for (size_t i = 0; i < 4; ++i)
       p[4 * j + i] = {profile[j].x * circle[i].x, profile[j].x * circle[i].y, profile[j].y};
-  std::vector<Primitive> out;
+  PrimitiveList out;
   MeshDirection side;
   add_patch_mesh(side, side, p, {}, nullptr, out);
   for (float u : {0.0f, 0.4f, 1.0f})
@@ -200,7 +200,7 @@ TEST(Teapot, is_closed_in_and_its_normals_point_outwards) {
   auto patches = teapot_patches();
   ASSERT_EQ(patches.size(), 32u);
   Box box;
-  std::vector<Primitive> out;
+  PrimitiveList out;
   MeshDirection side;
   for (const auto& p : patches)
     add_patch_mesh(side, side, p, {}, nullptr, out);

@@ -105,13 +105,13 @@ TEST(Patches, bases_convert_to_bezier) {
   EXPECT_NEAR(values[15], 32, 1e-4f);
 }
 
-std::vector<Primitive> polygon(std::vector<Vec3> P, std::vector<TypedParam> vars = {}) {
+PrimitiveList polygon(std::vector<Vec3> P, std::vector<TypedParam> vars = {}) {
   PolygonFaces face;
   for (size_t i = 0; i < P.size(); ++i)
     face.vertices.push_back(static_cast<int>(i));
   face.loops = {static_cast<int>(P.size())};
-  std::vector<Primitive> out;
-  add_polygons(face, P, vars, std::make_shared<PrimitiveState>(), out);
+  PrimitiveList out;
+  out.add(std::make_shared<PrimitiveState>(), make_polygons(face, P, vars));
   return out;
 }
 

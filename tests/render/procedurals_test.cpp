@@ -39,7 +39,7 @@ protected:
       auto seen = seen_bound(scene_.procedurals[i], camera, Vec2(1));
       if (!seen) continue;
       SceneContent content = interpreter_->make_content(Procedural(scene_.procedurals[i]), seen->area);
-      scene_.primitives.insert(scene_.primitives.end(), content.primitives.begin(), content.primitives.end());
+      scene_.primitives.append(std::move(content.primitives));
       scene_.procedurals.insert(scene_.procedurals.end(), content.procedurals.begin(),
                                 content.procedurals.end());
     }

@@ -41,7 +41,8 @@ slvm::Result<std::string> RayScene::load(const std::string& name) const {
 
 slvm::Grid& RayScene::asking_grid(int nu, int nv, int primitive) {
   grid_.reset(nu, nv);
-  grid_.user = primitive < 0 ? nullptr : &scene_.primitives[static_cast<size_t>(primitive)];
+  if (primitive >= 0) asking_ = scene_.primitives[static_cast<size_t>(primitive)];
+  grid_.user = primitive < 0 ? nullptr : &asking_;
   return grid_;
 }
 

@@ -82,6 +82,7 @@ private:
   std::unique_ptr<RayTracer> tracer_;
   std::unique_ptr<slvm::Instance> running_;
   slvm::ShaderSet no_shaders_;
+  Primitive asking_;
   slvm::Grid grid_{1, 1};
 };
 
