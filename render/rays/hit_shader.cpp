@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <map>
-#include <numeric>
 #include <optional>
 
 namespace render {
@@ -20,70 +19,6 @@ using From = slvm::RayOutput::From;
 
 /// Hits shaded at a time, about.
 constexpr size_t kHitsAGrid = 256;
-
-/// The services of a renderer, without rays.
-class QuietServices final : public slvm::RendererServices {
-public:
-  explicit QuietServices(slvm::RendererServices& all) : all_(all) {}
-  bool space_to_current(const slvm::ShadingState& s, std::string_view space, Matrix4& m) override {
-    return all_.space_to_current(s, space, m);
-  }
-  bool current_to_space(const slvm::ShadingState& s, std::string_view space, Matrix4& m) override {
-    return all_.current_to_space(s, space, m);
-  }
-  std::span<const slvm::Instance* const> lights(const slvm::ShadingState& s) override {
-    return all_.lights(s);
-  }
-  bool attribute(const slvm::ShadingState& s, std::string_view name, slvm::Value& out) override {
-    return all_.attribute(s, name, out);
-  }
-  bool option(const slvm::ShadingState& s, std::string_view name, slvm::Value& out) override {
-    return all_.option(s, name, out);
-  }
-  bool renderer_info(const slvm::ShadingState& s, std::string_view name, slvm::Value& out) override {
-    return all_.renderer_info(s, name, out);
-  }
-  slvm::TextureServices* textures() override { return all_.textures(); }
-  slvm::RayServices* rays() override { return &nothing_; }
-  slvm::SubsurfaceServices* subsurface() override { return all_.subsurface(); }
-  slvm::PointCloudServices* point_clouds() override { return all_.point_clouds(); }
-  slvm::IrradianceCacheServices* irradiance_caches() override { return all_.irradiance_caches(); }
-  slvm::PhotonMapServices* photon_maps() override { return all_.photon_maps(); }
-  void print(const slvm::ShadingState& s, std::string_view text) override { all_.print(s, text); }
-
-private:
-  /// A world without surfaces.
-  class Nothing final : public slvm::RayServices {
-  public:
-    void trace(const slvm::ShadingState&, const slvm::RayOptions&, const slvm::RayBatch& batch,
-               std::span<const slvm::RayOutput>, float* distance, slvm::RayCursor*) override {
-      std::fill_n(distance, batch.count, slvm::kNotShot);
-    }
-    void transmission(const slvm::ShadingState&, const slvm::RayOptions&, const slvm::RayBatch& batch,
-                      float* const (&through)[3]) override {
-      for (float* plane : through)
-        std::fill_n(plane, batch.count, 1.0f);
-    }
-    std::string hemisphere(const slvm::ShadingState&, const slvm::HemisphereQuery& q) override {
-      auto clear = [&](float* plane) {
-        if (plane) std::fill_n(plane, q.points, 0.0f);
-      };
-      clear(q.occlusion);
-      for (size_t c = 0; c < 3; ++c) {
-        clear(q.radiance[c]);
-        clear(q.environment_colour[c]);
-        clear(q.environment_direction[c]);
-      }
-      return "";
-    }
-    std::string sample_environment(const slvm::ShadingState&, const slvm::EnvironmentSamples& s) override {
-      std::fill_n(s.density, s.count, 0.0f);
-      return "";
-    }
-  };
-  slvm::RendererServices& all_;
-  Nothing nothing_;
-};
 
 bool is_from(std::span<const slvm::RayOutput> outputs, std::initializer_list<From> wanted) {
   return std::any_of(outputs.begin(), outputs.end(), [&](const slvm::RayOutput& o) {
@@ -146,16 +81,7 @@ struct HitShader::Worker {
   HitGrid hits;
   HitVolumes volumes;
   slvm::Grid lattice{2, 2};
-  std::vector<HitRay> in_order; ///< hits of a batch as they are shaded
-  // While they are sorted:
-  struct Bucket { ///< hits of one primitive
-    uint32_t primitive, group, first = 0, count = 0;
-  };
-  std::vector<Bucket> buckets;
-  std::vector<uint32_t> bucket_of; ///< by number of the hit
-  std::vector<uint32_t> table;     ///< buckets by a hash of their primitives, kNone where there is none
-  std::vector<uint32_t> in_groups; ///< buckets
-  std::vector<size_t> group_ends;  ///< of each group that follows another in the hits' new order
+  HitOrder order;
 };
 
 class HitShader::WorkerLease {
@@ -167,7 +93,8 @@ public:
       worker_ = std::move(idle_.back());
       idle_.pop_back();
     } else {
-      worker_ = std::make_unique<Worker>(owner.machine_, displacer ? *owner.quiet_ : owner.services_);
+      worker_ = std::make_unique<Worker>(
+          owner.machine_, displacer ? static_cast<slvm::RendererServices&>(owner.quiet_) : owner.services_);
     }
   }
   ~WorkerLease() {
@@ -222,82 +149,10 @@ struct HitShader::Work {
   }
 };
 
-/// Numbers of groups by what makes them.
-struct HitShader::Groups {
-  struct Key {
-    /// Shaders and lights; or, where they may ask for more, whose attributes and which object space these
-    /// are.
-    std::vector<const void*> shading;
-    std::array<float, 16> object{};
-    std::array<float, 8> texture_coordinates;
-    bool flipped;
-    RayAttributes rays;
-    std::string variables;
-    auto operator<=>(const Key&) const = default;
-  };
-  std::map<Key, uint32_t> numbers;
-
-  static Key key_of(const Primitive& p, const BoundAttributes& bound);
-  static std::string variables_of(const Primitive& p);
-};
-
-namespace {
-
-/// Whether a shader can tell one object from another by more than what its points are given.
-bool looks_at_object(const slvm::Instance* instance) {
-  if (!instance) return false;
-  const slvm::Program& p = instance->program();
-  auto has = [](const auto& list, auto&& what) { return std::any_of(list.begin(), list.end(), what); };
-  return has(p.imports,
-             [&](slvm::ShadeopId id) {
-               return p.plugins.find(id) || p.plugins.info(id).name == "attribute";
-             }) ||
-         has(p.strings, [](const std::string& s) { return s == "object"; }) ||
-         has(p.slots, [](const slvm::Slot& s) { return s.type == slvm::Type::kString; });
-}
-
-} // namespace
-
-HitShader::Groups::Key HitShader::Groups::key_of(const Primitive& p, const BoundAttributes& bound) {
-  const Attributes& a = p.attributes();
-  Key key;
-  const slvm::ShaderSet& set = bound.shaders;
-  std::vector<const slvm::Instance*> all{set.displacement, set.surface, set.atmosphere, set.interior,
-                                         set.exterior};
-  all.insert(all.end(), bound.lights.begin(), bound.lights.end());
-  if (!a.scoped_spaces.empty() || std::any_of(all.begin(), all.end(), looks_at_object)) {
-    key.shading = {&a};
-    key.object = p.state->object_to_camera.m;
-  } else {
-    key.shading.assign(all.begin(), all.end());
-  }
-  key.texture_coordinates = a.texture_coordinates;
-  key.flipped = a.flips_normals(p.state->mirrored);
-  key.rays = a.rays;
-  key.variables = variables_of(p);
-  return key;
-}
-
-std::string HitShader::Groups::variables_of(const Primitive& p) {
-  std::string out;
-  for (const PatchVar& var : p.vars) {
-    out += var.name;
-    out += static_cast<char>('a' + static_cast<int>(var.type));
-    out += std::to_string(var.elements);
-    out += static_cast<char>('0' + static_cast<int>(var.interpolation));
-    if (var.interpolation != Interpolation::kConstant || replaced_variable(var) != Global::kCount) continue;
-    out.append(reinterpret_cast<const char*>(var.values.data()), var.values.size() * sizeof(float));
-    for (const std::string& s : var.strings)
-      out += s + '\0';
-  }
-  return out;
-}
-
 HitShader::HitShader(const Scene& scene, const Camera& camera, const slvm::Machine& machine,
                      const BoundShaders& shaders, slvm::RendererServices& services)
-    : scene_(scene), machine_(machine), shaders_(shaders), services_(services),
-      quiet_(std::make_unique<QuietServices>(services)), group_of_run_(scene.primitives.runs().size()),
-      groups_(std::make_unique<Groups>()) {
+    : scene_(scene), machine_(machine), shaders_(shaders), services_(services), quiet_(services),
+      groups_(scene, shaders) {
   const Options& o = scene.options;
   dice_ = {&camera, &machine.strings(), o.shutter_open + o.shutter_offset, o.shutter_close - o.shutter_open};
 }
@@ -329,83 +184,6 @@ void HitShader::positions(const Primitive& primitive, const UvRect& rect, int nu
     P[k] = {from.get(0, k), from.get(1, k), from.get(2, k)};
 }
 
-/// With the lock.
-uint32_t HitShader::group_of(uint32_t primitive) {
-  const size_t number = scene_.primitives.run_number(primitive);
-  const PrimitiveList::Run& run = scene_.primitives.runs()[number];
-  uint32_t& known = run.pieces->vars_are_alike() ? group_of_run_[number] : group_of_[primitive];
-  if (known) return known;
-  const Primitive p = run.primitive(primitive - run.first);
-  Groups::Key key = Groups::key_of(p, *shaders_.find(&p.attributes()));
-  auto [it, is_new] = groups_->numbers.try_emplace(std::move(key), 0);
-  // The first primitive of the group: a number that does not depend on what was hit first is not needed, as
-  // the order of groups changes no result; that all points of a grid are of one group does.
-  if (is_new) it->second = static_cast<uint32_t>(groups_->numbers.size());
-  return known = it->second;
-}
-
-/// By group, then primitive, then ray; groups and primitives in the order of their first hits here, whatever
-/// their numbers.
-std::span<const HitRay> HitShader::sort(std::span<const HitRay> hits, Worker& worker) {
-  constexpr uint32_t kNone = ~0u;
-  std::vector<Worker::Bucket>& buckets = worker.buckets;
-  std::vector<uint32_t>&bucket_of = worker.bucket_of, &table = worker.table;
-  buckets.clear();
-  bucket_of.resize(hits.size());
-  const size_t places = std::bit_ceil(2 * hits.size());
-  table.assign(places, kNone);
-  auto find = [&](uint32_t primitive) {
-    size_t place = (primitive * 0x9e3779b9u) & (places - 1);
-    while (table[place] != kNone && buckets[table[place]].primitive != primitive)
-      place = (place + 1) & (places - 1);
-    if (table[place] == kNone) {
-      table[place] = static_cast<uint32_t>(buckets.size());
-      buckets.push_back({primitive, group_of(primitive)});
-    }
-    return table[place];
-  };
-  size_t groups = 0;
-  {
-    std::lock_guard lock(groups_mutex_);
-    for (size_t i = 0; i < hits.size(); ++i) {
-      const uint32_t primitive = hits[i].place.primitive;
-      const bool again = i > 0 && primitive == hits[i - 1].place.primitive;
-      bucket_of[i] = again ? bucket_of[i - 1] : find(primitive);
-      ++buckets[bucket_of[i]].count;
-    }
-    groups = groups_->numbers.size();
-  }
-  worker.group_ends.clear();
-  if (buckets.size() == 1) {
-    worker.group_ends.push_back(hits.size());
-    return hits;
-  }
-  // Groups in the order of their first hits.
-  std::vector<uint32_t>& in_groups = worker.in_groups;
-  in_groups.resize(buckets.size());
-  std::iota(in_groups.begin(), in_groups.end(), 0u);
-  std::vector<uint32_t>& first_of = table; // first bucket of each group; numbers of groups begin at 1
-  first_of.assign(groups + 1, kNone);
-  for (uint32_t k = 0; k < buckets.size(); ++k)
-    if (first_of[buckets[k].group] == kNone) first_of[buckets[k].group] = k;
-  std::sort(in_groups.begin(), in_groups.end(), [&](uint32_t a, uint32_t b) {
-    return std::pair(first_of[buckets[a].group], a) < std::pair(first_of[buckets[b].group], b);
-  });
-  uint32_t place = 0, last = buckets[in_groups[0]].group;
-  for (uint32_t k : in_groups) {
-    if (buckets[k].group != last) worker.group_ends.push_back(place);
-    last = buckets[k].group;
-    buckets[k].first = place;
-    place += buckets[k].count;
-  }
-  worker.group_ends.push_back(hits.size());
-  std::vector<HitRay>& out = worker.in_order;
-  out.resize(hits.size());
-  for (size_t i = 0; i < hits.size(); ++i)
-    out[buckets[bucket_of[i]].first++] = hits[i];
-  return out;
-}
-
 std::vector<HitRay> HitShader::take_list() {
   std::lock_guard lock(workers_mutex_);
   std::vector<HitRay> list;
@@ -428,9 +206,9 @@ void HitShader::shade(std::span<const HitRay> all, const HitBatch& batch,
   Demand demand(outputs, batch.shades);
   WorkerLease lease(*this, false);
   Worker& worker = *lease;
-  const std::span<const HitRay> hits = sort(all, worker);
+  const std::span<const HitRay> hits = worker.order.sort(all, groups_);
   std::optional<Work> work;
-  auto next_group = worker.group_ends.begin();
+  auto next_group = worker.order.group_ends().begin();
   size_t group_end = 0, most = 0;
   auto state = [&](const HitRay& hit) { return &scene_.primitives.state(hit.place.primitive); };
   for (size_t first = 0, end = 0; first < hits.size(); first = end) {

@@ -2,16 +2,15 @@
 // of a few hundred points, and what the rays' shader wants to know is taken from these grids.
 #pragma once
 
-#include "render/rays/hit_grid.h"
+#include "render/rays/hit_order.h"
 #include "render/rays/hit_volumes.h"
-#include "render/shading/bound_shaders.h"
+#include "render/shading/quiet_services.h"
 #include "render/shading/services.h"
 
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace render {
@@ -64,8 +63,6 @@ private:
   class WorkerLease;
   struct Demand;
   struct Work;
-  uint32_t group_of(uint32_t primitive);
-  std::span<const HitRay> sort(std::span<const HitRay> hits, Worker& worker);
   void shade_grid(Worker& worker, std::span<const HitRay> hits, const HitBatch& batch,
                   std::span<const slvm::RayOutput> outputs, const Demand& demand, const Work& work,
                   uint64_t id);
@@ -84,17 +81,12 @@ private:
   const BoundShaders& shaders_;
   slvm::RendererServices& services_;
   PhotonMaps* photon_maps_ = nullptr;
-  std::unique_ptr<slvm::RendererServices> quiet_;
+  QuietServices quiet_;
   DiceContext dice_;
   std::mutex workers_mutex_;
   std::vector<std::unique_ptr<Worker>> idle_, idle_displacers_;
   std::vector<std::vector<HitRay>> lists_;
-  std::mutex groups_mutex_;
-  /// Number of the group that can be diced together, by run of the scene's primitives; 0: not known yet.
-  std::vector<uint32_t> group_of_run_;
-  std::unordered_map<uint32_t, uint32_t> group_of_; ///< by primitive, of runs whose variables differ
-  struct Groups;
-  std::unique_ptr<Groups> groups_;
+  HitGroups groups_;
   /// Surfaces of which only some outputs are wanted, by instance and names; null: all of it is needed.
   using Narrow = std::map<std::pair<uint64_t, std::string>, std::unique_ptr<const slvm::Instance>>;
   std::mutex narrow_mutex_;
