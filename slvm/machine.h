@@ -200,7 +200,8 @@ public:
   /// Instead of the atmosphere: any volume shaders that change Ci and Oi in turn, and the end of the grid.
   void shade_volume(const Instance&);
   void end_grid();
-  /// One shader of any kind by itself (imagers; lights in tests: set Ps, read Cl and L).
+  /// One shader of any kind by itself (imagers; lights in tests: set Ps, read Cl and L). Area lights shine
+  /// from where u and v say, as LightEmitter::place() takes x and y, and undivided.
   void run(const Instance&, Grid&);
 
   /// From now on `observer` is told of each instruction that runs (slvm/exec/observer.h); null: nobody is,

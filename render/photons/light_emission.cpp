@@ -27,19 +27,21 @@ LightEmission::LightEmission(const slvm::Machine& machine, slvm::RendererService
                              const slvm::Instance& light, const SceneSphere& scene)
     : machine_(machine), services_(services), light_(light), scene_(scene) {
   if (light.emitter()) {
-    problem_ = "it is an area light: it sends no photons";
-    return;
+    kind_ = Kind::kSurface;
+    reach_ = 0.01f * scene_.radius;
+  } else {
+    find_place();
   }
-  find_place();
   if (kind_ == Kind::kNone) return;
   if (!check_fall_off())
-    problem_ = kind_ == Kind::kPoint
+    problem_ = kind_ != Kind::kDistant
                    ? "its light does not fall off by the square of the distance, as that of photons does"
                    : "its light changes with the distance, that of photons does not";
   find_distribution();
 }
 
-void LightEmission::run(const std::vector<Vec3>& points, std::vector<Vec3>& L, std::vector<Color>& Cl) const {
+void LightEmission::run(const std::vector<Vec3>& points, std::vector<Vec3>& L, std::vector<Color>& Cl,
+                        const Places* places) const {
   const size_t n = points.size();
   slvm::Grid grid(static_cast<int>(n), 1);
   grid.derivatives = false;
@@ -49,6 +51,10 @@ void LightEmission::run(const std::vector<Vec3>& points, std::vector<Vec3>& L, s
       Ps[c * grid.pitch() + i] = points[i][static_cast<int>(c)];
       Ns[c * grid.pitch() + i] = c == 2 ? -1.0f : 0.0f;
     }
+  if (places) {
+    std::copy(places->x.begin(), places->x.end(), grid.varying(Global::ku));
+    std::copy(places->y.begin(), places->y.end(), grid.varying(Global::kv));
+  }
   slvm::ShadingContext context(machine_, services_);
   context.run(light_, grid);
   auto take = [&](Global g, std::vector<Vec3>& to) {
@@ -60,6 +66,44 @@ void LightEmission::run(const std::vector<Vec3>& points, std::vector<Vec3>& L, s
   };
   take(Global::kL, L);
   take(Global::kCl, Cl);
+}
+
+void LightEmission::find_normals(Places& places) const {
+  slvm::Grid grid(static_cast<int>(places.x.size()), 1);
+  light_.emitter()->place(places.x, places.y, light_.program(), grid);
+  for (size_t i = 0; i < places.x.size(); ++i) {
+    Vec3 P, N;
+    for (size_t c = 0; c < 3; ++c) {
+      P[static_cast<int>(c)] = grid.variable(Global::kP).get(c, i);
+      N[static_cast<int>(c)] = grid.variable(Global::kN).get(c, i);
+    }
+    places.P.push_back(P);
+    places.N.push_back(glm::dot(N, N) > 0 ? glm::normalize(N) : Vec3(0, 0, 1));
+  }
+}
+
+namespace {
+
+/// A direction whose z is along the normal.
+Vec3 about(Vec3 normal, Vec3 d) {
+  Vec3 x, y;
+  basis_about(normal, x, y);
+  return d.x * x + d.y * y + d.z * normal;
+}
+
+} // namespace
+
+void LightEmission::look_from_place(float x, float y, float part, int each, std::vector<Color>& Cl) const {
+  Places one{{x}, {y}, {}, {}};
+  find_normals(one);
+  std::vector<Vec3> points, L;
+  for (int j = 0; j < kRows; j += each)
+    for (int i = 0; i < kColumns; i += each) {
+      const Vec3 d = direction_at(static_cast<float>(j) + 0.5f, static_cast<float>(i) + 0.5f);
+      points.push_back(one.P[0] + part * reach_ * about(one.N[0], d));
+    }
+  const Places places{std::vector<float>(points.size(), x), std::vector<float>(points.size(), y), {}, {}};
+  run(points, L, Cl, &places);
 }
 
 /// From where points in the scene are lit. Ever more of them are looked at, as cones may be narrow.
@@ -130,6 +174,7 @@ bool LightEmission::check_fall_off() {
   std::vector<Color> near, far;
   constexpr int kEach = 4; // of rows and columns
   auto look = [&](float part, std::vector<Color>& out) {
+    if (kind_ == Kind::kSurface) return look_from_place(0.5f, 0.5f, part, kEach, out);
     points.clear();
     for (int j = 0; j < kRows; j += kEach)
       for (int i = 0; i < kColumns; i += kEach) {
@@ -147,12 +192,24 @@ bool LightEmission::check_fall_off() {
     first += static_cast<double>(brightness(near[i]));
     second += static_cast<double>(brightness(far[i]));
   }
-  return std::abs((kind_ == Kind::kPoint ? 4 : 1) * second - first) <= 0.02 * first;
+  return std::abs((kind_ != Kind::kDistant ? 4 : 1) * second - first) <= 0.02 * first;
 }
 
-void LightEmission::find_distribution() {
+/// Of an area light the mean over its surface: what single places send is weighed by it.
+std::vector<Color> LightEmission::lattice_colours() const {
   std::vector<Vec3> points, L;
   std::vector<Color> Cl;
+  if (kind_ == Kind::kSurface) {
+    constexpr int kSide = 5;
+    std::vector<Color> sum(kRows * kColumns, Color(0));
+    for (int k = 0; k < kSide * kSide; ++k) {
+      auto middle = [](int i) { return (static_cast<float>(i) + 0.5f) / kSide; };
+      look_from_place(middle(k % kSide), middle(k / kSide), 1, 1, Cl);
+      for (size_t i = 0; i < sum.size(); ++i)
+        sum[i] += glm::max(Cl[i], Color(0)) / static_cast<float>(kSide * kSide);
+    }
+    return sum;
+  }
   for (int j = 0; j < kRows; ++j)
     for (int i = 0; i < kColumns; ++i) {
       const float row = static_cast<float>(j) + 0.5f, column = static_cast<float>(i) + 0.5f;
@@ -160,7 +217,13 @@ void LightEmission::find_distribution() {
                                              : on_disc(row / kRows, column / kColumns));
     }
   run(points, L, Cl);
-  const float whole = kind_ == Kind::kPoint ? 4 * kPi * reach_ * reach_ : kPi * scene_.radius * scene_.radius;
+  return Cl;
+}
+
+void LightEmission::find_distribution() {
+  const std::vector<Color> Cl = lattice_colours();
+  const float whole =
+      kind_ != Kind::kDistant ? 4 * kPi * reach_ * reach_ : kPi * scene_.radius * scene_.radius;
   const float cell = whole / (kRows * kColumns);
   for (const Color& c : Cl)
     power_ += glm::max(c, Color(0)) * cell;
@@ -180,6 +243,7 @@ void LightEmission::find_distribution() {
 
 EmittedPhotons LightEmission::emit(size_t first, size_t count, size_t all, uint64_t seed) const {
   EmittedPhotons out;
+  Places places; // of area lights
   std::vector<Vec3> points, L;
   std::vector<Color> Cl;
   std::vector<float> share; // of the whole lattice, to that of the photon
@@ -195,7 +259,12 @@ EmittedPhotons LightEmission::emit(size_t first, size_t count, size_t all, uint6
     const float row = static_cast<float>(k / kColumns) + upper_unit(more),
                 column = static_cast<float>(k % kColumns) + lower_unit(more);
     share.push_back(static_cast<float>(sum / (own * static_cast<double>(cumulated_.size()))));
-    if (kind_ == Kind::kPoint) {
+    if (kind_ == Kind::kSurface) {
+      const uint64_t where = hash_of(static_cast<int64_t>(hash), 2, kPhotonOrigin);
+      places.x.push_back(upper_unit(where));
+      places.y.push_back(lower_unit(where));
+      out.direction.push_back(direction_at(row, column));
+    } else if (kind_ == Kind::kPoint) {
       out.direction.push_back(direction_at(row, column));
       out.origin.push_back(from_);
       points.push_back(from_ + reach_ * out.direction.back());
@@ -205,9 +274,19 @@ EmittedPhotons LightEmission::emit(size_t first, size_t count, size_t all, uint6
       points.push_back(out.origin.back());
     }
   }
+  if (kind_ == Kind::kSurface && !places.x.empty()) {
+    find_normals(places);
+    const float off = 1e-2f * reach_; // the surface itself is not in their way
+    for (size_t i = 0; i < places.P.size(); ++i) {
+      out.direction[i] = about(places.N[i], out.direction[i]);
+      out.origin.push_back(places.P[i] + off * out.direction[i]);
+      points.push_back(places.P[i] + reach_ * out.direction[i]);
+    }
+  }
   if (points.empty()) return out;
-  run(points, L, Cl);
-  const float whole = kind_ == Kind::kPoint ? 4 * kPi * reach_ * reach_ : kPi * scene_.radius * scene_.radius;
+  run(points, L, Cl, kind_ == Kind::kSurface ? &places : nullptr);
+  const float whole =
+      kind_ != Kind::kDistant ? 4 * kPi * reach_ * reach_ : kPi * scene_.radius * scene_.radius;
   for (size_t i = 0; i < points.size(); ++i)
     out.power.push_back(glm::max(Cl[i], Color(0)) * (whole * share[i] / static_cast<float>(all)));
   return out;

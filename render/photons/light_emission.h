@@ -1,9 +1,9 @@
 // How a light sends out photons, found by running its shader: where it stands, how much goes where, and what
 // that comes to. Shapes, cookies, barn doors and textures so count as the shader has them.
 //
-// A light may stand at a point (illuminate) or far away (solar); of the first the fall-off must be that of
-// the square of the distance, of the second there must be none, as photons spread out in this way by
-// themselves (Christensen, 3.5.1). In camera space.
+// A light may stand at a point (illuminate), at the points of a surface (AreaLightSource) or far away
+// (solar); of the first the fall-off must be that of the square of the distance, of the second there must be
+// none, as photons spread out in this way by themselves (Christensen, 3.5.1). In camera space.
 #pragma once
 
 #include "render/state/math.h"
@@ -44,8 +44,19 @@ public:
 private:
   static constexpr int kRows = 64, kColumns = 128; ///< of the lattice that is looked at
 
-  /// Light at points: L from the light, and Cl.
-  void run(const std::vector<Vec3>& points, std::vector<Vec3>& L, std::vector<Color>& Cl) const;
+  /// Points of an area light's surface, by what LightEmitter::place() takes, and the normals there.
+  struct Places {
+    std::vector<float> x, y;
+    std::vector<Vec3> P, N;
+  };
+  /// Light at points: L from the light, and Cl; of an area light from a place for each of them.
+  void run(const std::vector<Vec3>& points, std::vector<Vec3>& L, std::vector<Color>& Cl,
+           const Places* places = nullptr) const;
+  void find_normals(Places& places) const;
+  /// What is seen of an area light in the directions of the lattice, `each` rows and columns apart, at `part`
+  /// of its reach from a place.
+  void look_from_place(float x, float y, float part, int each, std::vector<Color>& Cl) const;
+  std::vector<Color> lattice_colours() const;
   void find_place();
   void look_at_layer(int n, int k, std::vector<Vec3>& lit, std::vector<Vec3>& from) const;
   void find_distribution();
@@ -57,7 +68,7 @@ private:
   slvm::RendererServices& services_;
   const slvm::Instance& light_;
   SceneSphere scene_;
-  enum class Kind : uint8_t { kNone, kPoint, kDistant } kind_ = Kind::kNone;
+  enum class Kind : uint8_t { kNone, kPoint, kSurface, kDistant } kind_ = Kind::kNone;
   Vec3 from_{0.0f};               ///< the point, or the direction of the light
   float reach_ = 1;               ///< distance from the point at which it is looked at
   std::vector<double> cumulated_; ///< of the cells' shares

@@ -223,7 +223,8 @@ void AreaEmitter::place(std::span<const float> x, std::span<const float> y, cons
     const std::span<const Spot> alike = std::span(spots).subspan(first, end - first);
     fill(alike, read, part);
     for (Global g : kOfSurface)
-      if (const slvm::Planes& from = part.variable(g); from.data && (read.has(g) || g == Global::kP))
+      if (const slvm::Planes& from = part.variable(g);
+          from.data && (read.has(g) || g == Global::kP || g == Global::kN))
         scatter(from, alike, grid.varying(g), grid.pitch());
     for (const auto& [name, from] : part.primvars()) {
       const slvm::Planes* known = grid.primvar(name);

@@ -81,7 +81,26 @@ struct ShadingContext::Impl {
     return &run;
   }
 
+  /// An area light by itself shines from the points of its surface that u and v of the grid say, as
+  /// LightEmitter::place() takes them. Null for others.
+  const Grid* place_on_emitter(const Instance& light, const Grid& grid) {
+    if (!light.emitter()) return nullptr;
+    if (!on_emitter)
+      on_emitter = std::make_unique<Grid>(grid.nu(), grid.nv());
+    else
+      on_emitter->reset(grid.nu(), grid.nv());
+    std::vector<float> places[2];
+    for (size_t c = 0; c < 2; ++c) {
+      const Planes& at = grid.variable(c == 0 ? Global::ku : Global::kv);
+      for (size_t i = 0; i < grid.points(); ++i)
+        places[c].push_back(at.data ? at.get(0, i) : 0.5f);
+    }
+    light.emitter()->place(places[0], places[1], light.program(), *on_emitter);
+    return on_emitter.get();
+  }
+
   LightCache cache;
+  std::unique_ptr<Grid> on_emitter;
   ShaderSet shaders;
   GridState state;
   PluginThread plugins;
@@ -186,6 +205,7 @@ void ShadingContext::shade(const ShaderSet& set, Grid& grid) {
 void ShadingContext::run(const Instance& instance, Grid& grid) {
   impl_->begin({}, grid);
   impl_->forget_runs();
+  impl_->run_of(Impl::kSingle, instance).on_emitter = impl_->place_on_emitter(instance, grid);
   impl_->execute(Impl::kSingle, &instance);
   if (instance.shader().kind() == ShaderKind::kLight) light_to_grid(*impl_->runs[Impl::kSingle], grid);
   impl_->plugins.end_grid();

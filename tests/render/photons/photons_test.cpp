@@ -163,6 +163,20 @@ TEST_F(PhotonFrame, a_plane_under_a_lamp_is_lit_as_by_the_lamp) {
   EXPECT_NEAR(map.radiance({0, 0, 0}, {0, 1, 0}).x, 1, 0.2f);
 }
 
+TEST_F(PhotonFrame, a_plane_under_an_area_light_is_lit_as_by_its_light_loops) {
+  shaders_["glow"] = "light glow(float intensity = 1) { illuminate(P, N, PI / 2) Cl = intensity * "
+                     "(normalize(N) . normalize(L)) / (L . L); }";
+  const std::vector<Photon> photons =
+      emit("AttributeBegin AreaLightSource \"glow\" 1 \"intensity\" 2 Translate 0 1 0 Rotate 90 1 0 0 "
+           "Disk 0 .8 360 AttributeEnd Illuminate 1 1 " +
+               floor(9),
+           200000);
+  EXPECT_EQ(messages_, "");
+  EXPECT_NEAR(power_of(photons).x, 2 * M_PI, 0.15 * M_PI); // but for what misses the floor
+  const PhotonMap map(photons);
+  EXPECT_NEAR(map.irradiance({{0, 0, 0}, {0, 1, 0}, 1000, kInfinity, 0}).x, 2 / (0.8f * 0.8f + 1), 0.1f);
+}
+
 TEST_F(PhotonFrame, parallel_light_is_as_strong_everywhere) {
   emit("LightSource \"sun\" 1 \"intensity\" .8 " + floor(2), 100000);
   EXPECT_EQ(messages_, "");
