@@ -184,29 +184,16 @@ void FrameRenderer::split_all() {
   s.eye_splits = options_.eye_splits;
   s.motion = options_.sample_motion;
   // Chunks of primitives in parallel, joined in order: task numbers never depend on the threads.
-  constexpr size_t kChunk = 64;
-  std::vector<std::pair<size_t, size_t>> chunks;
-  auto add_chunks = [&](size_t first, size_t end) {
-    split_count_ += end - first;
-    for (size_t next = 0; first < end; first = next) {
-      next = std::min(end, (first / kChunk + 1) * kChunk);
-      chunks.emplace_back(first, next);
-    }
-  };
-  size_t first = 0;
-  for (const PrimitiveList::Run& run : scene_.primitives.runs())
-    if (waits(run)) {
-      add_chunks(first, run.first);
-      first = size_t{run.first} + run.count;
-    }
-  add_chunks(first, scene_.primitives.size());
+  const std::vector<PrimitiveRange> chunks = chunks_at_once(scene_.primitives);
   std::vector<std::vector<GridTask>> parts(chunks.size());
   for_all(chunks.size(), [&](size_t c) {
-    for (size_t i = chunks[c].first; i < chunks[c].second; ++i)
+    for (size_t i = chunks[c].first; i < chunks[c].end; ++i)
       split_primitive(scene_.primitives[i], static_cast<uint32_t>(i), s, parts[c]);
     join_tasks(scene_.primitives, parts[c]);
     parts[c].shrink_to_fit();
   });
+  for (const PrimitiveRange& c : chunks)
+    split_count_ += c.end - c.first;
   size_t tasks = 0;
   for (const auto& part : parts)
     tasks += part.size();

@@ -53,6 +53,25 @@ BucketRange BucketLayout::touched(Vec2 raster_min, Vec2 raster_max) const {
           index(raster_max.y, ymargin, crop.y0, height, rows)};
 }
 
+std::vector<PrimitiveRange> chunks_at_once(const PrimitiveList& list) {
+  constexpr size_t kChunk = 64;
+  std::vector<PrimitiveRange> out;
+  auto add = [&](size_t first, size_t end) {
+    for (size_t next = 0; first < end; first = next) {
+      next = std::min(end, (first / kChunk + 1) * kChunk);
+      out.push_back({first, next});
+    }
+  };
+  size_t first = 0;
+  for (const PrimitiveList::Run& run : list.runs())
+    if (waits(run)) {
+      add(first, run.first);
+      first = size_t{run.first} + run.count;
+    }
+  add(first, list.size());
+  return out;
+}
+
 namespace {
 
 Vec2 margin_of(const BucketLayout& layout) {
@@ -96,8 +115,7 @@ void LazyFinder::add(const PrimitiveList& list) {
       if (!lazy) continue;
       lazy->cull_hidden = run.attributes().cull_hidden;
       lazy->list = &list;
-      lazy->first = run.first + from;
-      lazy->end = run.first + std::min(from + Pieces::kBlock, run.count);
+      lazy->range = {run.first + from, run.first + std::min(from + Pieces::kBlock, run.count)};
     }
   }
 }
@@ -156,7 +174,7 @@ void LazyContent::make(LazyBatch& lazy) {
     batch.waiting = finder.take();
   } else {
     batch.primitives = lazy.list;
-    cut(lazy.first, lazy.end);
+    cut(lazy.range.first, lazy.range.end);
   }
   join_tasks(*batch.primitives, batch.tasks);
   batch.tasks.shrink_to_fit();

@@ -98,11 +98,16 @@ struct TaskBatch {
   const PrimitiveState& state_of(uint32_t task) const { return primitives->state(tasks[task].primitive); }
 };
 
+/// Primitives [first, end) of a list.
+struct PrimitiveRange {
+  size_t first = 0, end = 0;
+};
+
 /// A procedural that can be seen, or a block of a large mesh.
 struct LazyBatch {
-  std::unique_ptr<const Procedural> procedural; ///< null: primitives [first, end) of `list`
+  std::unique_ptr<const Procedural> procedural; ///< null: primitives of `list`
   const PrimitiveList* list = nullptr;
-  size_t first = 0, end = 0;
+  PrimitiveRange range;
   bool cull_hidden = true;
   SeenBound seen;
   BucketRange buckets;
@@ -125,6 +130,9 @@ using ContentMaker = std::function<SceneContent(const Procedural&, float area)>;
 inline bool waits(const PrimitiveList::Run& run) {
   return run.count > Pieces::kBlock && !run.state->solid;
 }
+
+/// What does not wait, a few at a time.
+std::vector<PrimitiveRange> chunks_at_once(const PrimitiveList&);
 
 /// Finds what can be seen, as parts of batch `id`, in the buckets of `within`.
 class LazyFinder {

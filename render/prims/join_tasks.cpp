@@ -24,9 +24,13 @@ bool joins(const Primitive& p) {
   return !seams && !p.state->solid && p.deformation.empty() && (!vars || !vars->differs_by_piece());
 }
 
-bool fit(const Primitive& a, const Primitive& b) {
-  return a.state == b.state && a.vars.source() == b.vars.source() && a.one_across == b.one_across;
-}
+/// What surfaces that share a grid have in common.
+struct Kind {
+  const PrimitiveState* state = nullptr;
+  const VarSource* vars = nullptr;
+  bool one_across = false;
+  bool operator==(const Kind&) const = default;
+};
 
 /// Whether a grid of this size would still be about where the task is.
 bool is_near(Vec2 size, const GridTask& task) {
@@ -40,9 +44,16 @@ void join_tasks(const PrimitiveList& primitives, std::vector<GridTask>& tasks) {
   size_t kept = 0;
   bool open = false; // the last task that was kept may grow
   float wanted = 0;  // points that its pieces need
+  Kind kind;         // of its pieces
   for (size_t t = 0; t < tasks.size(); ++t) {
     const GridTask& task = tasks[t];
-    bool small = task.nu * task.nv <= kSmall && is_whole(task.rect) && joins(primitives[task.primitive]);
+    bool small = task.nu * task.nv <= kSmall && is_whole(task.rect);
+    Kind own;
+    if (small) {
+      const Primitive p = primitives[task.primitive];
+      small = joins(p);
+      own = {p.state.get(), p.vars.source(), p.one_across};
+    }
     if (small && open) {
       GridTask& run = tasks[kept - 1];
       Vec2 low = glm::min(run.raster_min, task.raster_min), high = glm::max(run.raster_max, task.raster_max);
@@ -51,8 +62,7 @@ void join_tasks(const PrimitiveList& primitives, std::vector<GridTask>& tasks) {
       float both = wanted + static_cast<float>(task.nu * task.nv);
       bool room = points <= kMostPoints && static_cast<float>(points) <= kMostWaste * both &&
                   is_near(high - low, task);
-      if (room && task.primitive == run.primitive + run.pieces && task.step == run.step &&
-          fit(primitives[run.primitive], primitives[task.primitive])) {
+      if (room && task.primitive == run.primitive + run.pieces && task.step == run.step && own == kind) {
         ++run.pieces;
         wanted = both;
         run.nu = nu;
@@ -65,6 +75,7 @@ void join_tasks(const PrimitiveList& primitives, std::vector<GridTask>& tasks) {
       }
     }
     open = small;
+    kind = own;
     wanted = static_cast<float>(task.nu * task.nv);
     if (kept != t) tasks[kept] = task;
     ++kept;
