@@ -12,10 +12,10 @@ namespace render {
 class QuietServices final : public slvm::RendererServices {
 public:
   explicit QuietServices(slvm::RendererServices& all) : all_(all) {}
-  bool space_to_current(const slvm::ShadingState& s, std::string_view space, Matrix4& m) override {
+  bool space_to_current(const slvm::ShadingState& s, std::string_view space, slvm::Matrix4& m) override {
     return all_.space_to_current(s, space, m);
   }
-  bool current_to_space(const slvm::ShadingState& s, std::string_view space, Matrix4& m) override {
+  bool current_to_space(const slvm::ShadingState& s, std::string_view space, slvm::Matrix4& m) override {
     return all_.current_to_space(s, space, m);
   }
   std::span<const slvm::Instance* const> lights(const slvm::ShadingState& s) override {
