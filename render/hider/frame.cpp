@@ -10,6 +10,7 @@
 //      to them.
 #include "render/hider/frame.h"
 
+#include "render/hider/after_filter.h"
 #include "render/hider/random.h"
 #include "render/hider/sample_buffer.h"
 #include "render/hider/task_batch.h"
@@ -43,7 +44,8 @@ class FrameRenderer {
 public:
   FrameRenderer(const Scene& scene, Shading& shading, const FrameSettings& settings)
       : scene_(scene), options_(scene.options), shading_(shading), settings_(settings),
-        camera_(scene.options), content_(camera_, layout_, split_, settings.make_content) {
+        camera_(scene.options), after_filter_(options_, settings.aovs),
+        content_(camera_, layout_, split_, settings.make_content) {
     sampling_ = SamplingSettings::from(options_, settings.aovs);
     for (const PrimitiveList::Run& run : scene.primitives.runs()) {
       sampling_.moving = sampling_.moving || run.moves();
@@ -81,7 +83,6 @@ private:
   void make_buckets();
   void render_bucket(int i, int j, Worker& worker);
   bool masked(const GridTask& task, const PixelRect& covered) const;
-  /// What comes after the filter.
   void finish_bucket(const PixelRect& rect, Worker& worker);
   const ShadedGrid* shaded(TaskBatch& batch, uint32_t task, Worker& worker);
   std::unique_ptr<const ShadedGrid> shade(const TaskBatch& batch, uint32_t task, Worker& worker);
@@ -90,14 +91,6 @@ private:
     int x = options_.subpixel ? options_.xsamples : 1, y = options_.subpixel ? options_.ysamples : 1;
     return {r.x0 * x, r.y0 * y, r.x1 * x, r.y1 * y};
   }
-  void expose(const PixelRect& rect);
-  void expose(const PixelRect& rect, int first, int count, const std::array<float, 2>& exposure);
-  /// A picture, by the places of its first colour, opacity and alpha in a pixel.
-  struct Picture {
-    int Ci, Oi, alpha;
-  };
-  std::vector<Picture> pictures() const;
-  void run_imager(const PixelRect& rect, const Picture& picture, Worker& worker);
   static void count(const Primitive& primitive, const slvm::Grid& grid,
                     std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
@@ -109,6 +102,7 @@ private:
   const FrameSettings& settings_;
   Camera camera_;
   SamplingSettings sampling_;
+  AfterFilter after_filter_;
   std::bitset<slvm::kGlobalCount> shown_; ///< predefined variables that displays ask for
   int threads_;
   Image image_;
@@ -286,10 +280,7 @@ bool FrameRenderer::masked(const GridTask& task, const PixelRect& covered) const
 }
 
 void FrameRenderer::finish_bucket(const PixelRect& rect, Worker& worker) {
-  expose(rect);
-  if (options_.imager)
-    for (const Picture& p : pictures())
-      run_imager(rect, p, worker);
+  after_filter_.run(rect, image_, *worker.shader, worker.grid);
   if (settings_.finished) settings_.finished(image_, rect);
 }
 
@@ -374,85 +365,6 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
   worker.report.variables |= out->variables;
   worker.report.bad_colours += out->bad_colours;
   return out;
-}
-
-void FrameRenderer::expose(const PixelRect& rect) {
-  expose(rect, Image::kCi, 3, {options_.gain, options_.gamma});
-  using Source = AovChannel::Source;
-  for (const AovChannel& a : settings_.aovs)
-    if (a.source == Source::kColor || a.source == Source::kVariable)
-      expose(rect, Image::kAov + a.first, a.components, a.exposure);
-}
-
-void FrameRenderer::expose(const PixelRect& rect, int first, int count,
-                           const std::array<float, 2>& exposure) {
-  auto [gain, gamma] = exposure;
-  if (gain == 1 && gamma == 1) return;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      float* p = image_.pixel(x, y) + first;
-      for (int c = 0; c < count; ++c)
-        p[c] = exposed(p[c], gain, gamma);
-    }
-}
-
-/// The standard one, and those with a filter or an exposure of their own (channels.h sees to it that they are
-/// complete).
-std::vector<FrameRenderer::Picture> FrameRenderer::pictures() const {
-  std::vector<Picture> out{{Image::kCi, Image::kOi, Image::kAlpha}};
-  using Source = AovChannel::Source;
-  auto place = [&](const AovChannel& of, Source source) {
-    for (const AovChannel& a : settings_.aovs)
-      if (a.source == source && a.exposure == of.exposure && a.filter == of.filter)
-        return Image::kAov + a.first;
-    return -1;
-  };
-  for (const AovChannel& a : settings_.aovs)
-    if (a.source == Source::kColor)
-      out.push_back({Image::kAov + a.first, place(a, Source::kOpacity), place(a, Source::kAlpha)});
-  std::erase_if(out, [](const Picture& p) { return p.Oi < 0 || p.alpha < 0; });
-  return out;
-}
-
-void FrameRenderer::run_imager(const PixelRect& rect, const Picture& picture, Worker& worker) {
-  slvm::Grid& grid = worker.grid;
-  grid.reset(rect.width(), rect.height());
-  grid.derivatives = true;
-  grid.flip_normals = false;
-  grid.object_to_current = {};
-  grid.id = hash_of(rect.x0, rect.y0, kImager);
-  grid.user = nullptr;
-  using slvm::Global;
-  float* planes[6] = {grid.varying(Global::kP),     grid.varying(Global::kCi), grid.varying(Global::kOi),
-                      grid.varying(Global::kalpha), grid.varying(Global::ks),  grid.varying(Global::kt)};
-  size_t pitch = grid.pitch(), k = 0;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x, ++k) {
-      const float* p = image_.pixel(x, y);
-      planes[0][k] = static_cast<float>(x) + 0.5f;
-      planes[0][pitch + k] = static_cast<float>(y) + 0.5f;
-      planes[0][2 * pitch + k] = 0;
-      for (int c = 0; c < 3; ++c) {
-        planes[1][static_cast<size_t>(c) * pitch + k] = p[picture.Ci + c];
-        planes[2][static_cast<size_t>(c) * pitch + k] = p[picture.Oi + c];
-      }
-      planes[3][k] = p[picture.alpha];
-      planes[4][k] = planes[0][k] / static_cast<float>(options_.xres);
-      planes[5][k] = planes[0][pitch + k] / static_cast<float>(options_.yres);
-    }
-  worker.shader->image(*options_.imager, grid);
-  const slvm::Planes &Ci = grid.variable(Global::kCi), &Oi = grid.variable(Global::kOi),
-                     &alpha = grid.variable(Global::kalpha);
-  k = 0;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x, ++k) {
-      float* p = image_.pixel(x, y);
-      for (int c = 0; c < 3; ++c) {
-        p[picture.Ci + c] = Ci.get(static_cast<size_t>(c), k);
-        p[picture.Oi + c] = Oi.get(static_cast<size_t>(c), k);
-      }
-      p[picture.alpha] = alpha.get(0, k);
-    }
 }
 
 void FrameRenderer::report_progress() {
