@@ -79,6 +79,11 @@ AreaEmitter::AreaEmitter(PrimitiveList surface, uint32_t samples, const DiceCont
       row_ends_.push_back(area += static_cast<double>(sides) / 2 / lattice.nv);
     }
   }
+  for (size_t k = 0, r = 0; k < row_ends_.size(); ++k) {
+    while (row_ends_[r] <= area * static_cast<double>(k) / static_cast<double>(row_ends_.size()))
+      ++r;
+    guide_.push_back(static_cast<uint32_t>(r));
+  }
   find_shared_variables();
 }
 
@@ -145,19 +150,26 @@ void AreaEmitter::find_shared_variables() {
 
 AreaEmitter::Spot AreaEmitter::spot(float x, float y) const {
   const double wanted = static_cast<double>(x) * row_ends_.back();
-  const auto it = std::upper_bound(row_ends_.begin(), row_ends_.end() - 1, wanted);
-  const auto r = static_cast<size_t>(it - row_ends_.begin());
+  const size_t rows = row_ends_.size();
+  size_t r = guide_[std::min(static_cast<size_t>(x * static_cast<float>(rows)), rows - 1)];
+  while (r + 1 < rows && row_ends_[r] <= wanted)
+    ++r;
+  while (r > 0 && row_ends_[r - 1] > wanted) // by rounding
+    --r;
   const double begin = r ? row_ends_[r - 1] : 0;
   const Lattice& lattice = lattices_[rows_[r].primitive];
   const int j = rows_[r].row;
   const float *low = &lattice.integral[lattice.at(0, j)], *high = &lattice.integral[lattice.at(0, j + 1)];
-  const float in_row = static_cast<float>((wanted - begin) / (*it - begin));
+  const float in_row = static_cast<float>((wanted - begin) / (row_ends_[r] - begin));
   const float weight = linear_place(low[lattice.nu], high[lattice.nu], std::clamp(in_row, 0.0f, 1.0f));
   auto between = [weight](float a, float b) { return a + (b - a) * weight; };
   const float target = y * between(low[lattice.nu], high[lattice.nu]);
-  int i = 0;
-  for (int step = kMostCells; step > 0; step /= 2)
-    if (i + step < lattice.nu && between(low[i + step], high[i + step]) <= target) i += step;
+  // Cells of a row are about equal, on most surfaces.
+  int i = std::min(static_cast<int>(y * static_cast<float>(lattice.nu)), lattice.nu - 1);
+  while (i + 1 < lattice.nu && between(low[i + 1], high[i + 1]) <= target)
+    ++i;
+  while (i > 0 && between(low[i], high[i]) > target)
+    --i;
   const float from = between(low[i], high[i]), to = between(low[i + 1], high[i + 1]);
   const float in_cell = to > from ? std::clamp((target - from) / (to - from), 0.0f, 1.0f) : 0.5f;
   const float *a = &lattice.area[lattice.at(i, j)], *b = &lattice.area[lattice.at(i, j + 1)];

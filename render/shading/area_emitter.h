@@ -61,6 +61,7 @@ private:
   std::vector<Lattice> lattices_;
   std::vector<Row> rows_;
   std::vector<double> row_ends_;    ///< area up to the end of each row
+  std::vector<uint32_t> guide_;     ///< for each of as many equal parts of the area: the row it begins in
   std::vector<std::string> shared_; ///< variables that all primitives have
   uint32_t samples_;
   DiceContext context_;
