@@ -21,11 +21,19 @@ bool is_format(const std::string& name) {
   return module.problem.empty() && module.knows_format(name);
 }
 
+/// Numbers of frames, "z", "tx", "xp": what maps and pictures are named by that are no format's. They need
+/// not be asked for, which takes longer than many a picture does.
+bool may_be_format(const std::string& extension) {
+  const bool number =
+      std::all_of(extension.begin(), extension.end(), [](unsigned char c) { return std::isdigit(c); });
+  return !number && (extension.size() > 2 || extension == "bw");
+}
+
 /// What the extension of the file's name says; TIFF without one that is known.
 FileFormat format_of_name(const std::string& name) {
   std::string extension = fs::path(name).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
-  if (extension.empty() || !is_format(extension)) return {"tiff", "tif"};
+  if (!may_be_format(extension) || !is_format(extension)) return {"tiff", "tif"};
   return {extension == "tif" ? "tiff" : extension == "jpg" ? "jpeg" : extension, extension};
 }
 

@@ -1,4 +1,5 @@
 // Image files: types, modes, quantisation, names, errors.
+#include "render/display/file_format.h"
 #include "render/display/output.h"
 #include "render/display/preview.h"
 #include "tests/render/render_text.h"
@@ -343,6 +344,20 @@ TEST_F(Display, drivers_of_other_renderers_become_files) {
   EXPECT_TRUE(fs::exists(name));
   EXPECT_THAT(write("Display \"" + path("y") + "\" \"sgif\" \"rgba\""), HasSubstr("is written as tiff"));
   EXPECT_TRUE(fs::exists(path("y.tif")));
+}
+
+TEST_F(Display, an_extension_tells_the_format_if_there_is_one) {
+  auto format = [](const char* name) {
+    DisplayRequest d;
+    d.name = name;
+    d.type = "file";
+    return choose_format(d).plugin;
+  };
+  for (const char* name : {"a", "a.tif", "a.0010", "env.xp", "a.z", "a.tx", "a.", "a.whatever"})
+    EXPECT_EQ(format(name), "tiff") << name;
+  EXPECT_EQ(format("a.png"), "png");
+  EXPECT_EQ(format("a.jpg"), "jpeg");
+  EXPECT_EQ(format("a.bw"), "bw");
 }
 
 TEST_F(Display, errors_name_the_mode) {
