@@ -1,13 +1,10 @@
 // The frame loop. Order of work:
-//   1. split: every primitive, in parallel, into GridTasks (a few dozen bytes each); but those of large
-//   meshes
-//      when a bucket comes to them (task_batch.h);
+//   1. split: primitives, in parallel, into GridTasks (a few dozen bytes each); large meshes and procedurals
+//      wait until a bucket comes to them (task_batch.h);
 //   2. bin: each bucket gets the list of tasks that may touch it, nearest first;
 //   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are
-//   closed. A grid
-//      is diced and shaded by the first bucket that needs it and freed by the last one in whose list it is,
-//      so the grids in memory are those of about one row of buckets. Procedurals join in when a bucket comes
-//      to them.
+//      closed. A grid is diced and shaded by the first bucket that needs it and freed by the last one in whose
+//      list it is, so the grids in memory are those of about one row of buckets.
 #include "render/hider/frame.h"
 
 #include "render/hider/after_filter.h"

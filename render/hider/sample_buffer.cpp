@@ -94,7 +94,7 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
 
 bool SampleBuffer::can_paint(const ShadedGrid& grid) const {
   return grid.times.empty() && !grid.solid && !grid.matte && grid.level.whole() && !settings_.lens &&
-         !settings_.mask && settings_.clipping_planes.empty() && !settings_.layers().midpoint;
+         !settings_.mask && settings_.clipping_planes.empty() && settings_.reconstruction.depth_filter != DepthFilter::kMidpoint;
 }
 
 void SampleBuffer::paint_grid(const ShadedGrid& grid) {

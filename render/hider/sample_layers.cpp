@@ -45,7 +45,7 @@ Color colour_at(const float* planes) {
 } // namespace
 
 SampleLayers::SampleLayers(const LayerSettings& settings)
-    : settings_(settings), midpoint_(settings.midpoint), planes_(Image::kAov + settings.aovs) {}
+    : settings_(settings), planes_(Image::kAov + settings.aovs) {}
 
 void SampleLayers::begin(size_t count) {
   count_ = open_ = count;
@@ -53,7 +53,7 @@ void SampleLayers::begin(size_t count) {
   const size_t size = count + SampleField::kPadding;
   for (size_t c = 0; c < planes_.size(); ++c) // opacities: see make_layers()
     if (c < Image::kOi || c > Image::kAlpha) planes_[c].assign(size, c == Image::kZ ? kInfinity : 0.0f);
-  if (midpoint_) second_.assign(size, kInfinity);
+  if (settings_.midpoint) second_.assign(size, kInfinity);
   plain_ = true;
   fragments_.clear();
   looks_.clear();
@@ -90,9 +90,9 @@ void SampleLayers::set_variables(size_t sample, const float* values) {
 void SampleLayers::cover(size_t sample, float z, const SampleSurface& surface) {
   farthest_known_ = false;
   float& nearest = planes_[Image::kZ][sample];
-  float& limit = midpoint_ ? second_[sample] : nearest;
+  float& limit = settings_.midpoint ? second_[sample] : nearest;
   const bool was_open = limit == kInfinity, in_front = z < nearest;
-  if (midpoint_) limit = std::min(limit, std::max(z, nearest));
+  if (settings_.midpoint) limit = std::min(limit, std::max(z, nearest));
   if (in_front) nearest = z;
   if (was_open && limit < kInfinity) --open_;
   if (!in_front) return;
@@ -197,7 +197,7 @@ void SampleLayers::composite(size_t sample) {
 /// The depth of what is opaque; with midpoints, half way to what is behind it.
 float SampleLayers::opaque_depth(size_t sample) const {
   const float nearest = depths()[sample];
-  return midpoint_ && second_[sample] < kInfinity ? 0.5f * (nearest + second_[sample]) : nearest;
+  return settings_.midpoint && second_[sample] < kInfinity ? 0.5f * (nearest + second_[sample]) : nearest;
 }
 
 std::span<const SampleSpan> SampleLayers::find_filled(size_t width) {
@@ -228,7 +228,7 @@ void SampleLayers::composite() {
   for (size_t k = 0; k < count_; ++k)
     if (first_[k] != kNone || matte_[k] != 0)
       composite(k);
-    else if (midpoint_)
+    else if (settings_.midpoint)
       depth[k] = opaque_depth(k);
 }
 

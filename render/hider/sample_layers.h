@@ -47,7 +47,7 @@ public:
   /// From now on samples may have surfaces that are not plainly opaque: before the calls below.
   void make_layers();
   /// A surface beyond these depths would not change the samples.
-  const float* limits() const { return midpoint_ ? second_.data() : depths(); }
+  const float* limits() const { return settings_.midpoint ? second_.data() : depths(); }
   bool hides_what_is_behind(const Color& opacity) const;
   /// A surface that hides what is behind it.
   void cover(size_t sample, float z, const SampleSurface& surface);
@@ -90,7 +90,6 @@ private:
   float opaque_depth(size_t sample) const;
 
   LayerSettings settings_;
-  bool midpoint_;
   size_t count_ = 0;
   /// A plane of samples for each channel of an image: of the nearest opaque surface (no z: none), in the end
   /// of all.

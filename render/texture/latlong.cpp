@@ -5,10 +5,10 @@
 #define HWY_TARGET_INCLUDE "render/texture/latlong.cpp"
 #include <hwy/foreach_target.h>
 
+#include "render/texture/wide_block.h"
 #include "slvm/wide/targets.h"
 
 #include <hwy/contrib/math/math-inl.h>
-#include <hwy/highway.h>
 
 #include <limits>
 #include <numbers>
@@ -17,17 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr hn::CappedTag<float, TextureRegions::kBlock> kWide;
-constexpr size_t kLanes = hn::MaxLanes(kWide);
-using V = hn::Vec<decltype(kWide)>;
-
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
-
-HWY_INLINE V number(float x) {
-  return hn::Set(kWide, x);
-}
 
 /// In parts of a turn, -1/2 to 1/2; 0 where both are.
 HWY_INLINE V turn_of(V y, V x) {

@@ -5,21 +5,13 @@
 #define HWY_TARGET_INCLUDE "render/texture/shadow_map.cpp"
 #include <hwy/foreach_target.h>
 
+#include "render/texture/wide_block.h"
 #include "slvm/wide/targets.h"
 
-#include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr hn::CappedTag<float, ShadowRegions::kBlock> kWide;
-constexpr hn::RebindToSigned<decltype(kWide)> kWideInt;
-constexpr hn::RebindToUnsigned<decltype(kWide)> kWideBits;
-constexpr size_t kLanes = hn::MaxLanes(kWide);
-using V = hn::Vec<decltype(kWide)>;
 
 // Two low-discrepancy sequences: points that fill the square evenly, whatever their number. The steps, in
 // parts of 2^32.
@@ -32,11 +24,11 @@ struct Coordinate {
   /// The coordinate of a transform, of the regions from `i`.
   HWY_INLINE Coordinate(const slvm::Matrix4& m, int column, const ShadowRegions& r, size_t i) {
     auto transform = [&](const ShadowRegions::Lanes(&v)[3]) HWY_ATTR {
-      V sum = hn::Mul(hn::Load(kWide, v[0] + i), hn::Set(kWide, m(0, column)));
-      sum = hn::Add(sum, hn::Mul(hn::Load(kWide, v[1] + i), hn::Set(kWide, m(1, column))));
-      return hn::Add(sum, hn::Mul(hn::Load(kWide, v[2] + i), hn::Set(kWide, m(2, column))));
+      V sum = hn::Mul(hn::Load(kWide, v[0] + i), number(m(0, column)));
+      sum = hn::Add(sum, hn::Mul(hn::Load(kWide, v[1] + i), number(m(1, column))));
+      return hn::Add(sum, hn::Mul(hn::Load(kWide, v[2] + i), number(m(2, column))));
     };
-    centre = hn::Add(transform(r.centre), hn::Set(kWide, m(3, column)));
+    centre = hn::Add(transform(r.centre), number(m(3, column)));
     along_u = transform(r.along_u);
     along_v = transform(r.along_v);
   }
@@ -52,18 +44,18 @@ struct Coordinate {
 /// Of a number of the sequence: from -1/2 to 1/2.
 HWY_INLINE V place(hn::Vec<decltype(kWideBits)> bits) {
   const V part = hn::ConvertTo(kWide, hn::BitCast(kWideInt, hn::ShiftRight<8>(bits)));
-  return hn::Sub(hn::Mul(part, hn::Set(kWide, 0x1p-24f)), hn::Set(kWide, 0.5f));
+  return hn::Sub(hn::Mul(part, number(0x1p-24f)), number(0.5f));
 }
 
 /// The part of the points hidden from the camera, for as many regions as lanes.
 HWY_INLINE V part_hidden(const ShadowMap& map, const ShadowRegions& r, size_t i) {
   const Coordinate x(r.to_screen, 0, r, i), y(r.to_screen, 1, r, i), w(r.to_screen, 3, r, i),
       z(r.to_camera, 2, r, i);
-  const V zero = hn::Zero(kWide), one = hn::Set(kWide, 1.0f), middle = hn::Set(kWide, 0.5f);
+  const V zero = hn::Zero(kWide), one = number(1.0f), middle = number(0.5f);
   const V sblur = hn::Load(kWide, r.sblur + i), tblur = hn::Load(kWide, r.tblur + i),
           bias = hn::Load(kWide, r.bias + i);
-  const V columns = hn::Set(kWide, static_cast<float>(map.width)),
-          rows = hn::Set(kWide, static_cast<float>(map.height));
+  const V columns = number(static_cast<float>(map.width)),
+          rows = number(static_cast<float>(map.height));
   const auto last_column = hn::Set(kWideInt, map.width - 1), last_row = hn::Set(kWideInt, map.height - 1),
              width = hn::Set(kWideInt, map.width);
   const bool sharp = hn::AllTrue(kWide, hn::And(hn::Eq(sblur, zero), hn::Eq(tblur, zero)));
@@ -90,7 +82,7 @@ HWY_INLINE V part_hidden(const ShadowMap& map, const ShadowRegions& r, size_t i)
     const V depth = hn::GatherIndex(kWide, map.depth.data(), hn::Add(hn::Mul(row, width), column));
     hidden = hn::Add(hidden, hn::IfThenElseZero(hn::And(seen, hn::Gt(at_z, hn::Add(depth, bias))), one));
   }
-  return hn::Div(hidden, hn::Set(kWide, static_cast<float>(samples)));
+  return hn::Div(hidden, number(static_cast<float>(samples)));
 }
 
 void shadowed(const ShadowMap& map, const ShadowRegions& r, float* out) {

@@ -1,6 +1,7 @@
 // A shadow map: depths as a camera saw them, and where that camera stood.
 #pragma once
 
+#include "render/texture/lookup_block.h"
 #include "slvm/support/matrix.h"
 
 #include <cstddef>
@@ -12,8 +13,8 @@ namespace render {
 /// Regions of space, each about a centre, by the changes along its two sides; many at a time, by component.
 /// The transforms of a map are to be those from their space.
 struct ShadowRegions {
-  static constexpr size_t kBlock = 16;
-  using Lanes = float[kBlock];
+  static constexpr size_t kBlock = kLookupBlock;
+  using Lanes = LookupLanes;
 
   alignas(64) Lanes centre[3] = {}, along_u[3] = {}, along_v[3] = {};
   alignas(64) Lanes sblur = {}, tblur = {}; ///< enlarge it by this part of the map

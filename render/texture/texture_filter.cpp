@@ -5,10 +5,10 @@
 #define HWY_TARGET_INCLUDE "render/texture/texture_filter.cpp"
 #include <hwy/foreach_target.h>
 
+#include "render/texture/wide_block.h"
 #include "slvm/wide/targets.h"
 
 #include <hwy/contrib/math/math-inl.h>
-#include <hwy/highway.h>
 
 #include <cstring>
 
@@ -16,23 +16,11 @@ HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr hn::CappedTag<float, TextureRegions::kBlock> kWide;
-constexpr hn::RebindToSigned<decltype(kWide)> kWideInt;
-constexpr hn::RebindToUnsigned<decltype(kWide)> kWideBits;
-constexpr size_t kLanes = hn::MaxLanes(kWide);
-using V = hn::Vec<decltype(kWide)>;
-using I = hn::Vec<decltype(kWideInt)>;
-
 /// A texel of a level is a box as wide as itself, bilinear interpolation a tent of twice that: together they
 /// spread as a box does that is wider by this.
 constexpr float kSpread = 1.7320508f;
 constexpr size_t kSums = TextureFilter::kSums;
 
-HWY_INLINE V number(float x) {
-  return hn::Set(kWide, x);
-}
 HWY_INLINE V square(V x) {
   return hn::Mul(x, x);
 }

@@ -1,6 +1,7 @@
 // Means of textures over regions.
 #pragma once
 
+#include "render/texture/lookup_block.h"
 #include "render/texture/texture_image.h"
 #include "slvm/textures.h"
 
@@ -13,8 +14,8 @@ namespace render {
 /// left corner of the image, (1, 1) the lower right one. The parts of the image by which they are blurred are
 /// apart. Many at a time, by component.
 struct TextureRegions {
-  static constexpr size_t kBlock = 16;
-  using Lanes = float[kBlock];
+  static constexpr size_t kBlock = kLookupBlock;
+  using Lanes = LookupLanes;
 
   alignas(64) Lanes s = {}, t = {}, s_u = {}, t_u = {}, s_v = {}, t_v = {}, sblur = {}, tblur = {};
 };

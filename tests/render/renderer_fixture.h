@@ -1,4 +1,4 @@
-// The whole chain as tests of pictures use it: RIB text with RSL texts, rendered to 16 x 16 pixels.
+// The whole chain as tests of pictures use it: RIB text with RSL texts, rendered to a few pixels.
 #pragma once
 
 #include "render/renderer.h"
@@ -26,15 +26,14 @@ protected:
     settings_.threads = 1;
   }
 
-  /// Renders 16 x 16 pixels to float channels; the messages are returned.
+  /// Renders size_ x size_ pixels to float channels; the messages are returned.
   std::string render(const std::string& rib, const std::string& mode = "rgba") {
     slvm::SourceManager sources;
     slvm::Diagnostics diagnostics;
     Renderer renderer(sources, diagnostics, settings_);
     std::string file = (directory_ / "out.exr").string();
     renderer.read_text("scene.rib",
-                       fmt::format("Format 16 16 1\nPixelFilter \"box\" 1 1\nDisplay \"{}\" \"openexr\" "
-                                   "\"{}\"\n{}",
+                       fmt::format("Format {0} {0} 1\n{1}Display \"{2}\" \"openexr\" \"{3}\"\n{4}", size_, head_,
                                    file, mode, rib));
     renderer.finish();
     read(file);
@@ -42,7 +41,7 @@ protected:
   }
 
   float value(int x, int y, int c) const {
-    return pixels_[static_cast<size_t>((y * 16 + x) * channels_ + c)];
+    return pixels_[static_cast<size_t>((y * size_ + x) * channels_ + c)];
   }
 
   std::string path(const std::string& name) const { return (directory_ / name).string(); }
@@ -51,6 +50,9 @@ protected:
   std::map<std::string, std::string> shaders_;
   RendererSettings settings_;
   std::string printed_;
+  int size_ = 16;
+  std::string head_ = "PixelFilter \"box\" 1 1\n"; ///< options of all pictures
+  std::vector<float> pixels_;
 
 private:
   slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path) {
@@ -62,12 +64,11 @@ private:
     auto in = OIIO::ImageInput::open(file);
     if (!in) return;
     channels_ = in->spec().nchannels;
-    pixels_.resize(static_cast<size_t>(16 * 16 * channels_));
+    pixels_.resize(static_cast<size_t>(size_ * size_ * channels_));
     in->read_image(0, 0, 0, channels_, OIIO::TypeDesc::FLOAT, pixels_.data());
   }
 
   anemone::test::TempFolder directory_;
-  std::vector<float> pixels_;
   int channels_ = 0;
 };
 

@@ -1,75 +1,50 @@
 // Whole pictures whose shaders shoot rays: the same with any number of threads, and right where that is
 // known.
-#include "render/renderer.h"
-#include "tests/render/shader_texts.h"
-#include "tests/temp_folder.h"
-
-#include <OpenImageIO/imageio.h>
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+#include "tests/render/renderer_fixture.h"
 
 #include <cmath>
-#include <map>
 
 namespace render {
 namespace {
 
 constexpr int kSize = 48;
 
-class RayPicture : public ::testing::Test {
+class RayPicture : public testing::RendererTest {
 protected:
+  void SetUp() override {
+    testing::RendererTest::SetUp();
+    size_ = kSize;
+    head_ = "Option \"limits\" \"int[2] bucketsize\" [12 12]\n";
+    shaders_ = {
+        {"constant", "surface constant() { Ci = Cs; Oi = Os; }"},
+        {"mirror", "surface mirror() { normal n = normalize(N); Ci = color(.1) + .8 * color trace(P, "
+                   "reflect(normalize(I), "
+                   "n)); Oi = 1; }"},
+        {"gathered", "surface gathered(float samples = 8) { color sum = 0, c = 0; gather(\"illuminance\", P, "
+                     "faceforward(normalize(N), I),"
+                     " PI/2, samples, \"distribution\", \"cosine\", \"surface:Ci\", c) sum += c; else sum += "
+                     ".2; Ci = Cs * sum / samples; Oi = 1; }"},
+        {"occluded",
+         "surface occluded() { Ci = Cs * (1 - occlusion(P, faceforward(normalize(N), I), 32)); Oi = 1; }"},
+        {"bleeding", "surface bleeding() { Ci = Cs * (.2 + indirectdiffuse(P, faceforward(normalize(N), I), "
+                     "16)); Oi = 1; }"},
+        {"lamp", "light lamp(point from = point \"world\" (-3, 5, -2)) { illuminate(from) Cl = "
+                 "transmission(Ps, from); }"},
+        {"matte", "surface matte() { Ci = Cs * diffuse(faceforward(normalize(N), I)); Oi = 1; }"},
+        {"dents", "displacement dents() { P -= .1 * sin(20 * s) * sin(20 * t) * normalize(N); N = "
+                  "calculatenormal(P); }"}};
+  }
   /// kSize x kSize pixels of 4 floats.
   std::vector<float> render(const std::string& rib, int threads = 1) {
-    RendererSettings settings;
-    settings.threads = threads;
-    settings.shader_loader = [this](const std::string& name, const std::vector<std::string>& path) {
-      return load(name, path);
-    };
-    slvm::SourceManager sources;
-    slvm::Diagnostics diagnostics;
-    Renderer renderer(sources, diagnostics, settings);
-    std::string file = (folder_ / "out.exr").string();
-    renderer.read_text("scene.rib",
-                       fmt::format("Format {} {} 1\nOption \"limits\" \"int[2] bucketsize\" [12 12]\n"
-                                   "Display \"{}\" \"openexr\" \"rgba\"\n{}",
-                                   kSize, kSize, file, rib));
-    renderer.finish();
-    messages_ = format_diagnostics(diagnostics, sources);
-    std::vector<float> pixels(kSize * kSize * 4);
-    if (auto in = OIIO::ImageInput::open(file))
-      in->read_image(0, 0, 0, 4, OIIO::TypeDesc::FLOAT, pixels.data());
-    return pixels;
+    settings_.threads = threads;
+    messages_ = testing::RendererTest::render(rib);
+    return pixels_;
   }
   static float at(const std::vector<float>& pixels, int x, int y, int c) {
     return pixels[static_cast<size_t>((y * kSize + x) * 4 + c)];
   }
 
-  std::map<std::string, std::string> shaders_ = {
-      {"constant", "surface constant() { Ci = Cs; Oi = Os; }"},
-      {"mirror", "surface mirror() { normal n = normalize(N); Ci = color(.1) + .8 * color trace(P, "
-                 "reflect(normalize(I), "
-                 "n)); Oi = 1; }"},
-      {"gathered", "surface gathered(float samples = 8) { color sum = 0, c = 0; gather(\"illuminance\", P, "
-                   "faceforward(normalize(N), I),"
-                   " PI/2, samples, \"distribution\", \"cosine\", \"surface:Ci\", c) sum += c; else sum += "
-                   ".2; Ci = Cs * sum / samples; Oi = 1; }"},
-      {"occluded",
-       "surface occluded() { Ci = Cs * (1 - occlusion(P, faceforward(normalize(N), I), 32)); Oi = 1; }"},
-      {"bleeding", "surface bleeding() { Ci = Cs * (.2 + indirectdiffuse(P, faceforward(normalize(N), I), "
-                   "16)); Oi = 1; }"},
-      {"lamp", "light lamp(point from = point \"world\" (-3, 5, -2)) { illuminate(from) Cl = "
-               "transmission(Ps, from); }"},
-      {"matte", "surface matte() { Ci = Cs * diffuse(faceforward(normalize(N), I)); Oi = 1; }"},
-      {"dents", "displacement dents() { P -= .1 * sin(20 * s) * sin(20 * t) * normalize(N); N = "
-                "calculatenormal(P); }"}};
   std::string messages_;
-
-private:
-  slvm::Result<std::string> load(const std::string& name, const std::vector<std::string>& path) {
-    return testing::compile_shader_text(shaders_, name, path);
-  }
-
-  anemone::test::TempFolder folder_;
 };
 
 const std::string kCamera =
