@@ -3,11 +3,12 @@
 //      wait until a bucket comes to them (task_batch.h);
 //   2. bin: each bucket gets the list of tasks that may touch it, nearest first;
 //   3. buckets in scan order, each thread taking the next: draw the bucket's grids until all samples are
-//      closed. A grid is diced and shaded by the first bucket that needs it and freed by the last one in whose
-//      list it is, so the grids in memory are those of about one row of buckets.
+//      closed. A grid is diced and shaded by the first bucket that needs it and freed by the last one in
+//      whose list it is, so the grids in memory are those of about one row of buckets.
 #include "render/hider/frame.h"
 
 #include "render/hider/after_filter.h"
+#include "render/hider/needed_points.h"
 #include "render/hider/random.h"
 #include "render/hider/sample_buffer.h"
 #include "render/hider/task_batch.h"
@@ -42,6 +43,7 @@ public:
   FrameRenderer(const Scene& scene, Shading& shading, const FrameSettings& settings)
       : scene_(scene), options_(scene.options), shading_(shading), settings_(settings),
         camera_(scene.options), after_filter_(options_, settings.aovs),
+        pattern_({options_.xsamples, options_.ysamples, options_.jitter}, false, false),
         content_(camera_, layout_, split_, settings.make_content) {
     sampling_ = SamplingSettings::from(options_, settings.aovs);
     for (const PrimitiveList::Run& run : scene.primitives.runs()) {
@@ -73,6 +75,7 @@ private:
     std::unique_ptr<SampleBuffer> samples;
     slvm::Grid grid{2, 2};
     std::vector<Primitive> pieces; ///< of that grid
+    NeededPoints needed;
     FrameReport report;
   };
 
@@ -83,12 +86,13 @@ private:
   void finish_bucket(const PixelRect& rect, Worker& worker);
   const ShadedGrid* shaded(TaskBatch& batch, uint32_t task, Worker& worker);
   std::unique_ptr<const ShadedGrid> shade(const TaskBatch& batch, uint32_t task, Worker& worker);
+  void find_needed(const GridTask& task, const ShadedGrid& geometry, NeededPoints& out) const;
   /// Pixels of the frame to pixels of the image, which are samples when "subpixel" is asked for.
   PixelRect image_rect(const PixelRect& r) const {
     int x = options_.subpixel ? options_.xsamples : 1, y = options_.subpixel ? options_.ysamples : 1;
     return {r.x0 * x, r.y0 * y, r.x1 * x, r.y1 * y};
   }
-  static void count(const Primitive& primitive, const slvm::Grid& grid,
+  static void count(const Primitive& primitive, const GridTask& task, size_t points,
                     std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
   template <class F> void for_all(size_t count, F&& f) const;
@@ -103,6 +107,7 @@ private:
   std::bitset<slvm::kGlobalCount> shown_; ///< predefined variables that displays ask for
   int threads_;
   Image image_;
+  const SamplePattern pattern_; ///< positions alone
   SplitSettings split_;
   TaskBatch batch_; ///< of the scene's own primitives
   BucketLayout layout_;
@@ -174,6 +179,7 @@ void FrameRenderer::split_all() {
   s.grid_size = options_.grid_size;
   s.eye_splits = options_.eye_splits;
   s.motion = options_.sample_motion;
+  s.may_have_samples = [this](Vec2 low, Vec2 high) { return pattern_.may_have(low, high); };
   // Chunks of primitives in parallel, joined in order: task numbers never depend on the threads.
   const std::vector<PrimitiveRange> chunks = chunks_at_once(scene_.primitives);
   std::vector<std::vector<GridTask>> parts(chunks.size());
@@ -242,9 +248,8 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
   BucketQueue queue(batch_, std::exchange(bucket.tasks, {}), std::exchange(bucket.waiting, {}));
   std::vector<LazyBatch*> opened;
   for (BucketQueue::Item item; queue.next(item);) {
-    bool hidden = item.zmin > samples.farthest();
     if (LazyBatch* lazy = item.lazy) {
-      if (hidden && lazy->cull_hidden) {
+      if (lazy->cull_hidden && samples.hides(lazy->seen.raster_min, lazy->seen.raster_max, item.zmin)) {
         content_.leave(*lazy, i, j, false);
       } else {
         content_.open(*lazy, i, j, queue);
@@ -255,7 +260,9 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
     const GridTask& task = item.batch->tasks[item.task];
     const PrimitiveState& state = item.batch->state_of(item.task);
     // Of a solid all must be known, whatever is seen of it.
-    hidden = hidden || (!state.solid && masked(task, samples.covered()));
+    const bool hidden = state.solid ? item.zmin > samples.farthest()
+                                    : samples.hides(task.raster_min, task.raster_max, item.zmin) ||
+                                          masked(task, samples.covered());
     if (!hidden || !state.attributes->cull_hidden)
       if (const ShadedGrid* grid = shaded(*item.batch, item.task, worker)) samples.draw(*grid);
     item.batch->slots[item.task].leave();
@@ -299,19 +306,26 @@ const ShadedGrid* FrameRenderer::shaded(TaskBatch& batch, uint32_t task, Worker&
   return slot.grid.get();
 }
 
-void FrameRenderer::count(const Primitive& primitive, const slvm::Grid& grid,
+void FrameRenderer::count(const Primitive& primitive, const GridTask& task, size_t points,
                           std::chrono::steady_clock::time_point started, FrameReport& report) {
   std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
   const auto& surface = primitive.attributes().surface;
   ShaderCost& cost = report.shaders[surface ? surface->name : "none"];
   cost.seconds += seconds.count();
   ++cost.grids;
-  cost.points += grid.points();
+  cost.points += points;
   ++report.shaded_grids;
-  report.shaded_points += grid.points();
-  int rows = grid.rows_of_piece();
-  report.micropolygons +=
-      static_cast<size_t>(grid.nu() - 1) * static_cast<size_t>(grid.nv() / rows * (rows - 1));
+  report.shaded_points += points;
+  report.micropolygons += task.pieces * static_cast<size_t>(task.nu - 1) * static_cast<size_t>(task.nv - 1);
+}
+
+/// Of a grid that nothing blurs, whose points are shaded each by itself.
+void FrameRenderer::find_needed(const GridTask& task, const ShadedGrid& geometry, NeededPoints& out) const {
+  // Whether many micropolygons can lie between samples.
+  const bool small = task.pieces > 1 || task.step * task.step * static_cast<float>(options_.xsamples) *
+                                                static_cast<float>(options_.ysamples) <
+                                            2;
+  out.find(geometry, small ? &pattern_ : nullptr);
 }
 
 /// Null when nothing of the grid can be seen.
@@ -352,10 +366,26 @@ std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, u
     worker.shader->displace(there.front(), later);
   }
   if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);
-  worker.shader->shade(primitive, grid);
-  count(primitive, grid, started, worker.report);
-  auto out = std::make_unique<ShadedGrid>(make_shaded_grid(
-      primitive, grid, camera_, outline ? &*outline : nullptr, settings_.aovs, *worker.shader));
+  auto geometry = [&] {
+    return std::make_unique<ShadedGrid>(
+        make_grid_geometry(primitive, grid, camera_, outline ? &*outline : nullptr));
+  };
+  std::unique_ptr<ShadedGrid> out;
+  slvm::Grid* shaded = &grid;
+  std::span<const uint32_t> some;
+  if (moved.empty() && !camera_.has_lens() && a.cull_hidden && worker.shader->point_by_point(primitive)) {
+    out = geometry();
+    find_needed(task, *out, worker.needed);
+    if (worker.needed.empty()) return nullptr;
+    if (worker.needed.few(grid.points())) {
+      some = worker.needed.points();
+      shaded = &worker.needed.take(grid, shading_.strings());
+    }
+  }
+  worker.shader->shade(primitive, *shaded);
+  count(primitive, task, shaded->points(), started, worker.report);
+  if (!out) out = geometry(); // surface shaders may have moved P
+  add_looks(*out, primitive, *shaded, some, settings_.aovs, *worker.shader);
   for (size_t i = 0; i < moved.size() && options_.sample_motion; ++i)
     add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
   if (solid) out->cut_near = batch.solids.at(solid).cut_near[primitive.state->solid_primitive];

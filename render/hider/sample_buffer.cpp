@@ -92,9 +92,18 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
   }
 }
 
+bool SampleBuffer::hides(Vec2 low, Vec2 high, float z) const {
+  if (z > farthest()) return true;
+  SampleWindow window;
+  return !find_window((low - origin_) * density_, (high - origin_) * density_, pattern_.width(),
+                      pattern_.height(), window) ||
+         layers_.hides(window, static_cast<size_t>(pattern_.width()), z);
+}
+
 bool SampleBuffer::can_paint(const ShadedGrid& grid) const {
   return grid.times.empty() && !grid.solid && !grid.matte && grid.level.whole() && !settings_.lens &&
-         !settings_.mask && settings_.clipping_planes.empty() && settings_.reconstruction.depth_filter != DepthFilter::kMidpoint;
+         !settings_.mask && settings_.clipping_planes.empty() &&
+         settings_.reconstruction.depth_filter != DepthFilter::kMidpoint;
 }
 
 void SampleBuffer::paint_grid(const ShadedGrid& grid) {

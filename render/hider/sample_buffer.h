@@ -51,6 +51,8 @@ public:
   void draw(const ShadedGrid& grid);
   /// Camera z beyond which nothing can be seen any more; infinite while a sample is open.
   float farthest() const { return layers_.farthest(); }
+  /// Whether nothing beyond z can be seen in a rectangle of the raster, as far as the samples cover it.
+  bool hides(Vec2 low, Vec2 high, float z) const;
   /// Composites and filters into the image's pixels of the bucket. Call once for each bucket, after the last
   /// draw.
   void finish(Image& image);

@@ -124,6 +124,13 @@ float SampleLayers::farthest() const {
   return farthest_;
 }
 
+bool SampleLayers::hides(const SampleWindow& window, size_t width, float z) const {
+  const float* row = limits() + window.j0 * width + window.i0;
+  for (size_t j = window.j0; j < window.j1; ++j, row += width)
+    if (!(z > greatest({row, window.i1 - window.i0}))) return false;
+  return true;
+}
+
 /// Those of a sample that are in front of what is opaque, front to back; of the same depth, as they came.
 void SampleLayers::sort_fragments(size_t sample) {
   const float nearest = depths()[sample];

@@ -4,6 +4,7 @@
 
 #include "render/hider/image.h"
 #include "render/hider/reconstruct.h"
+#include "render/hider/sample_window.h"
 
 #include <cstdint>
 #include <span>
@@ -62,6 +63,8 @@ public:
 
   /// z beyond which nothing can be seen any more; infinite while a sample is open.
   float farthest() const;
+  /// Whether nothing beyond z can be seen in a window of rows of `width` samples.
+  bool hides(const SampleWindow& window, size_t width, float z) const;
 
   /// For each row of `width` samples: outside there is nothing.
   std::span<const SampleSpan> find_filled(size_t width);

@@ -77,6 +77,23 @@ void SamplePattern::jitter(std::span<float> x, std::span<float> y, int column, i
   }
 }
 
+bool SamplePattern::may_have(Vec2 low, Vec2 high) const {
+  constexpr float kSmall = 4, kSlack = 1e-3f; // samples; pixels
+  const Vec2 density(size_.xsamples, size_.ysamples);
+  low -= kSlack;
+  high += kSlack;
+  const Vec2 from = glm::floor(low * density), to = glm::floor(high * density);
+  if (!(to.x - from.x < kSmall && to.y - from.y < kSmall)) return true;
+  const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
+  for (int j = static_cast<int>(from.y); j <= static_cast<int>(to.y); ++j)
+    for (int i = static_cast<int>(from.x); i <= static_cast<int>(to.x); ++i) {
+      const auto at = static_cast<size_t>(wrapped(j, rows) * columns + wrapped(i, columns));
+      const Vec2 p = (Vec2(i, j) + Vec2(jitter_x_[at], jitter_y_[at])) / density;
+      if (p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y) return true;
+    }
+  return false;
+}
+
 void SamplePattern::cover(PixelRect area) {
   columns_ = area.width();
   width_ = area.width() * size_.xsamples;

@@ -59,13 +59,23 @@ void snap(const GridOutline& outline, const ShadedGrid& grid, Vec3Planes& positi
     snap_to_outline(outline, grid.nu, grid.nv, {position.plane(c), position.size()});
 }
 
-Vec3Planes colours(const slvm::Planes& from, size_t points) {
-  Vec3Planes out(points);
+/// A component of a variable to `points` points; `some`: the variable has values of these alone.
+void spread(const slvm::Planes& from, size_t component, size_t points, std::span<const uint32_t> some,
+            float* to) {
+  const float* values = from.data + component * from.pitch;
+  if (from.step == 0)
+    std::fill_n(to, points, *values);
+  else if (some.empty())
+    std::copy_n(values, points, to);
+  else
+    for (size_t k = 0; k < some.size(); ++k)
+      to[some[k]] = values[k];
+}
+
+Vec3Planes colours(const slvm::Planes& from, size_t points, std::span<const uint32_t> some, float others) {
+  Vec3Planes out = some.empty() ? Vec3Planes(points) : Vec3Planes(points, Color(others));
   for (size_t c = 0; c < 3; ++c)
-    if (const float* values = from.data + c * from.pitch; from.step == 0)
-      std::fill_n(out.plane(c), points, *values);
-    else
-      std::copy_n(values, points, out.plane(c));
+    spread(from, c, points, some, out.plane(c));
   return out;
 }
 
@@ -171,9 +181,8 @@ void add_to_rows(const Vec3Planes& position, ShadedGrid& grid) {
 
 } // namespace
 
-ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
-                            const GridOutline* outline, std::span<const AovChannel> aovs,
-                            GridShader& shader) {
+ShadedGrid make_grid_geometry(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
+                              const GridOutline* outline) {
   ShadedGrid out;
   const Attributes& a = primitive.attributes();
   out.nu = grid.nu();
@@ -181,10 +190,23 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
   out.matte = a.matte;
   out.smooth = a.smooth_shading;
   out.level = primitive.state->level;
-  size_t points = grid.points();
   out.position = project_all(grid, camera);
-  out.Ci = colours(grid.variable(slvm::Global::kCi), points);
-  out.Oi = colours(grid.variable(slvm::Global::kOi), points);
+  out.solid = primitive.state->solid;
+  out.solid_primitive = primitive.state->solid_primitive;
+  out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), ShadedGrid::kDrawn);
+  hide_between_pieces(grid, out);
+  hide_behind_eye(grid, camera, out);
+  if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
+  if (outline) snap(*outline, out, out.position);
+  add_to_rows(out.position, out);
+  return out;
+}
+
+void add_looks(ShadedGrid& out, const Primitive& primitive, const slvm::Grid& grid,
+               std::span<const uint32_t> some, std::span<const AovChannel> aovs, GridShader& shader) {
+  const size_t points = out.points();
+  out.Ci = colours(grid.variable(slvm::Global::kCi), points, some, 0);
+  out.Oi = colours(grid.variable(slvm::Global::kOi), points, some, 1);
   out.bad_colours = mend_colours(out.Ci, out.Oi);
   out.opaque = true;
   for (size_t c = 0; out.opaque && c < 3; ++c)
@@ -198,22 +220,11 @@ ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, 
     const slvm::Planes* planes = shader.output(primitive, grid, c.name);
     if (!planes || !planes->data) continue;
     if (v < 64) out.variables |= uint64_t{1} << v;
-    int components = std::min(c.components, slvm::components(planes->type));
-    for (int i = 0; i < components; ++i) {
-      float* to = out.aov.data() + static_cast<size_t>(c.first + i) * points;
-      for (size_t k = 0; k < points; ++k)
-        to[k] = planes->get(static_cast<size_t>(i), k);
-    }
+    const int components = std::min(c.components, slvm::components(planes->type));
+    for (int i = 0; i < components; ++i)
+      spread(*planes, static_cast<size_t>(i), points, some,
+             out.aov.data() + static_cast<size_t>(c.first + i) * points);
   }
-  out.solid = primitive.state->solid;
-  out.solid_primitive = primitive.state->solid_primitive;
-  out.hidden.assign(static_cast<size_t>(out.nu - 1) * static_cast<size_t>(out.nv - 1), ShadedGrid::kDrawn);
-  hide_between_pieces(grid, out);
-  hide_behind_eye(grid, camera, out);
-  if (a.sides == 1) hide_back_faces(grid, camera, a.back_face_tolerance, out);
-  if (outline) snap(*outline, out, out.position);
-  add_to_rows(out.position, out);
-  return out;
 }
 
 void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const Camera& camera,

@@ -65,10 +65,15 @@ struct ShadedGrid {
   Color opacity(size_t point) const { return opaque ? Color(1.0f) : Oi[point]; }
 };
 
-/// From a grid that was displaced and shaded. Micropolygons that touch the eye plane are not drawn, nor those
+/// Where the micropolygons of a displaced grid are. Those that touch the eye plane are not drawn, nor those
 /// that face away (Sides 1); of a solid these are kept, marked. Null outline: none is needed.
-ShadedGrid make_shaded_grid(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
-                            const GridOutline* outline, std::span<const AovChannel> aovs, GridShader& shader);
+ShadedGrid make_grid_geometry(const Primitive& primitive, const slvm::Grid& grid, const Camera& camera,
+                              const GridOutline* outline);
+
+/// Adds what they look like, from a grid that was shaded. `points`: it holds these of them alone, and others
+/// are not looked at; empty: all.
+void add_looks(ShadedGrid& shaded, const Primitive& primitive, const slvm::Grid& grid,
+               std::span<const uint32_t> points, std::span<const AovChannel> aovs, GridShader& shader);
 
 /// Adds where the points are at a later time, from a grid that was displaced.
 void add_positions(ShadedGrid& shaded, float time, const slvm::Grid& grid, const Camera& camera,

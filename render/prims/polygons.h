@@ -1,7 +1,7 @@
-// Polygons become bilinear patches: a convex quadrilateral is one; any other convex polygon with n corners
-// becomes n, each from a corner to the middles of its two sides and the centre. On such a patch everything
-// that is linear over a triangle stays exactly linear. Concave polygons and those with holes are cut into
-// triangles first. Each patch has u and v of its own, from 0 to 1.
+// Polygons become bilinear patches: a triangle is one whose last side, v = 1, is a point; a convex
+// quadrilateral is one; any other convex polygon with n corners becomes n, each from a corner to the middles
+// of its two sides and the centre. Everything that is linear over a triangle stays exactly linear. Concave
+// polygons and those with holes are cut into triangles first. Each patch has u and v of its own, from 0 to 1.
 #pragma once
 
 #include "render/prims/primitive_list.h"
@@ -16,6 +16,9 @@ struct PolygonFaces {
   std::vector<int> vertices;      ///< of all loops of all faces, one after another
   std::vector<int> loops;         ///< how many of them each loop has: three or more
   std::vector<int> loops_of_face; ///< the outline and the holes of each face; empty: every loop is a face
+  /// The first side of a triangle is its shortest, for the sake of thin ones; not of one shape of several
+  /// that are to have the same parameters.
+  bool one_of_several = false;
 };
 
 /// The patches of all faces. `P` holds the vertex positions. Sizes of the variables: one value for

@@ -144,6 +144,9 @@ void Splitter::visit(const Piece& piece) {
     if (!(task.raster_max.x >= settings_.raster_min.x) || !(task.raster_min.x <= settings_.raster_max.x) ||
         !(task.raster_max.y >= settings_.raster_min.y) || !(task.raster_min.y <= settings_.raster_max.y))
       return;
+    if (settings_.may_have_samples && primitive_.attributes().cull_hidden &&
+        !settings_.may_have_samples(task.raster_min, task.raster_max))
+      return;
   }
   Extent e = measure(piece.rect, true);
   float width = piece.rect.u1 - piece.rect.u0, height = piece.rect.v1 - piece.rect.v0;

@@ -7,6 +7,7 @@
 #include "render/state/camera.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace render {
@@ -29,6 +30,8 @@ struct SplitSettings {
   int grid_size = 256;                     ///< micropolygons in a grid, at most
   int eye_splits = 10;
   bool motion = true; ///< what moves is drawn moving
+  /// Whether samples may lie in a rectangle of the raster; empty: anywhere.
+  std::function<bool(Vec2 low, Vec2 high)> may_have_samples = {};
 };
 
 /// Appends the visible pieces of scene primitive `index`, in an order that depends on nothing but the

@@ -99,7 +99,9 @@ public:
     const float s = skews_[hit.face].along_first(), t = skews_[hit.face].along_last();
     // u v in the triangle at the first corner, (1 - u) (1 - v) in the other one, where u + v > 1.
     const float off = hit.u * hit.v - std::max(hit.u + hit.v - 1, 0.0f);
-    const float by = off / std::max(1 + hit.v * s + hit.u * t, 0.1f);
+    // Of triangles it is exact as far as to the corner their last side is.
+    const float least = s == -1 && t == 0 ? 1e-6f : 0.1f;
+    const float by = off / std::max(1 + hit.v * s + hit.u * t, least);
     return {hit.u - by * s, hit.v - by * t};
   }
 

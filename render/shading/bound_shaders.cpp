@@ -153,6 +153,25 @@ std::bitset<slvm::kGlobalCount> read_by(const BoundAttributes& bound) {
   return out;
 }
 
+/// No derivatives and no rays, which have footprints, nothing that is kept or said, no point moved.
+bool is_point_by_point(const slvm::Program& p) {
+  constexpr uint32_t kOfMore = slvm::kDerivative | slvm::kRays | slvm::kEffect;
+  return std::none_of(p.imports.begin(), p.imports.end(),
+                      [&](slvm::ShadeopId id) {
+                        return p.plugins.find(id) || (p.plugins.info(id).flags & kOfMore);
+                      }) &&
+         std::none_of(p.slots.begin(), p.slots.end(),
+                      [](const slvm::Slot& s) { return s.stored && !s.parameter && s.name == "P"; });
+}
+
+bool is_point_by_point(const BoundAttributes& bound) {
+  auto alone = [](const slvm::Instance* shader) { return !shader || is_point_by_point(shader->program()); };
+  return !bound.shaders.displacement && alone(bound.shaders.surface) && alone(bound.shaders.atmosphere) &&
+         std::all_of(bound.lights.begin(), bound.lights.end(), [](const slvm::Instance* light) {
+           return is_point_by_point(light->shader().program()); // surfaces may send it other values
+         });
+}
+
 } // namespace
 
 std::unique_ptr<const BoundAttributes>
@@ -167,6 +186,7 @@ BoundShaders::Binder::bind(const std::shared_ptr<const Attributes>& a) {
   for (const auto& light : a->lights)
     if (const slvm::Instance* instance = bind(light)) bound->lights.push_back(instance);
   bound->read = read_by(*bound);
+  bound->point_by_point = is_point_by_point(*bound);
   return bound;
 }
 

@@ -43,6 +43,9 @@ struct BoundAttributes {
   /// The predefined variables that surface, atmosphere, volumes and lights read, and the defaults of their
   /// parameters; all that a plug-in may ask for. Displacement may need more: it makes geometry anew.
   std::bitset<slvm::kGlobalCount> read;
+  /// Each point of a grid is shaded by itself: what shading gives there does not depend on which others there
+  /// are, and shading a point does nothing else.
+  bool point_by_point = false;
   bool same_as(const BoundAttributes& b) const {
     return shaders.displacement == b.shaders.displacement && shaders.surface == b.shaders.surface &&
            shaders.atmosphere == b.shaders.atmosphere && shaders.interior == b.shaders.interior &&

@@ -17,6 +17,10 @@ public:
     return bound.shaders.displacement ? GridShader::reads(primitive) : bound.read;
   }
 
+  bool point_by_point(const Primitive& primitive) const override {
+    return shaders_.find(&primitive.attributes())->point_by_point;
+  }
+
   bool displace(const Primitive& primitive, slvm::Grid& grid) override {
     // Once for each grid: a procedural made meanwhile may have the same shaders bound anew.
     set_ = shaders_.find(&primitive.attributes())->shaders;

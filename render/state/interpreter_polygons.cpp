@@ -28,6 +28,7 @@ void Interpreter::polygon(const RequestCall& call) {
   std::iota(face.vertices.begin(), face.vertices.end(), 0);
   face.loops_of_face = {static_cast<int>(loops.size())};
   face.loops = std::move(loops);
+  face.one_of_several = in_motion_.has_value();
   scene_.primitives.add(primitive_state(), make_polygons(std::move(face), std::move(P), std::move(vars)));
 }
 
@@ -35,6 +36,7 @@ void Interpreter::add_mesh(const RequestCall& call,
                            const std::function<std::shared_ptr<const Pieces>()>& make) {
   std::shared_ptr<const Pieces> pieces;
   if (auto digest = digest_of(call, declarations_)) {
+    if (in_motion_) (*digest)[0] ^= 1; // PolygonFaces::one_of_several
     std::weak_ptr<const Pieces>& known = meshes_[*digest];
     pieces = known.lock();
     if (!pieces) known = pieces = make();
@@ -66,6 +68,7 @@ void Interpreter::points_polygons(const RequestCall& call) {
     std::span<const int> vertices = call.integers(first_argument + 1);
     PolygonFaces faces{{vertices.begin(), vertices.end()}, {loops.begin(), loops.end()}, {}};
     if (general) faces.loops_of_face = std::move(loops_of_face);
+    faces.one_of_several = in_motion_.has_value();
     say_left_out(call, first_argument, "face", leave_out_bad_faces(faces, P, vars));
     return make_polygons(std::move(faces), std::move(P), std::move(vars));
   });

@@ -253,6 +253,54 @@ TEST(Hider, farthest_is_known_once_all_samples_are_closed) {
   EXPECT_EQ(b.farthest(), 2);
 }
 
+TEST(Hider, what_is_behind_is_hidden_only_where_something_is_in_front) {
+  SampleBuffer b(settings());
+  b.begin({8, 0, 12, 4});
+  EXPECT_FALSE(b.hides({8, 0}, {9, 1}, 1e9f));
+  // The left half of the bucket, at depths from 2 to 4.
+  b.draw(quad({Vec3(0, -9, 2), Vec3(10, -9, 2), Vec3(0, 99, 4), Vec3(10, 99, 4)}, kWhite, kWhite));
+  EXPECT_TRUE(b.hides({8, 0}, {9.9f, 4}, 4.1f));
+  EXPECT_FALSE(b.hides({8, 0}, {9.9f, 4}, 2.05f));
+  EXPECT_FALSE(b.hides({8, 0}, {10.2f, 4}, 4.1f));
+  EXPECT_FALSE(b.hides({11, 2}, {11, 2}, 4.1f));
+  EXPECT_TRUE(b.hides({-99, -99}, {9.9f, 99}, 4.1f)); // of other buckets nothing is known here
+  EXPECT_TRUE(b.hides({13, 0}, {14, 4}, 1));
+  b.draw(sheet(3, kWhite * 0.5f, kWhite * 0.5f));
+  EXPECT_FALSE(b.hides({8, 0}, {12, 4}, 4.1f));
+  b.draw(sheet(3, kWhite, kWhite));
+  EXPECT_TRUE(b.hides({8, 0}, {12, 4}, 3.1f));
+}
+
+TEST(SamplePattern, knows_small_places_without_samples) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-70, 70), length(0, 0.8f);
+  for (const SampleGridSize& size :
+       {SampleGridSize{2, 3}, SampleGridSize{1, 1}, SampleGridSize{4, 4, false}}) {
+    SamplePattern pattern(size, false, false), near(size, false, false);
+    int empty = 0;
+    for (int round = 0; round < 2000; ++round) {
+      const Vec2 low(place(random), place(random)), high = low + Vec2(length(random), length(random));
+      const int x = static_cast<int>(std::floor(low.x)), y = static_cast<int>(std::floor(low.y));
+      near.cover({x, y, x + 2, y + 2});
+      bool has = false;
+      for (size_t k = 0; k < near.count(); ++k)
+        has = has || (near.at(k).x >= low.x && near.at(k).x <= high.x && near.at(k).y >= low.y &&
+                      near.at(k).y <= high.y);
+      if (has) {
+        EXPECT_TRUE(pattern.may_have(low, high));
+      }
+      empty += !pattern.may_have(low, high);
+      // It may be wrong by a thousandth of a pixel.
+      if (!has && pattern.may_have(low, high)) {
+        EXPECT_TRUE(high.x - low.x > 0.5f || high.y - low.y > 0.5f ||
+                    !pattern.may_have(low + 2e-3f, high - 2e-3f));
+      }
+    }
+    EXPECT_GT(empty, 200);
+  }
+  EXPECT_TRUE(SamplePattern({1, 1}, false, false).may_have({-1e9f, 0}, {1e9f, 0}));
+}
+
 TEST(Hider, an_aov_shows_the_nearest_surface) {
   SamplingSettings s = settings();
   s.reconstruction.aovs = {{"heat", 1, 0, AovChannel::Source::kVariable, {}}};

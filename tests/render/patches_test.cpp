@@ -115,9 +115,9 @@ PrimitiveList polygon(std::vector<Vec3> P, std::vector<TypedParam> vars = {}) {
   return out;
 }
 
-TEST(Polygons, four_corners_are_one_patch_and_others_one_for_each_corner) {
+TEST(Polygons, up_to_four_corners_are_one_patch_and_more_one_for_each) {
   EXPECT_EQ(polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}).size(), 1u);
-  EXPECT_EQ(polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 3u);
+  EXPECT_EQ(polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 1u);
   EXPECT_EQ(polygon({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}}).size(), 5u);
 }
 

@@ -1,6 +1,7 @@
 // Triangulation, concave polygons and holes, variables of faces and corners.
 #include "render/prims/polygons.h"
 
+#include "render/prims/motion.h"
 #include "render/prims/triangulate.h"
 #include "tests/render/surface_probe.h"
 
@@ -83,7 +84,7 @@ TEST(Triangulate, ends_on_nonsense) {
 double area_of(const Scene& s, std::string_view name = "", double* sum = nullptr) {
   double area = 0;
   for (const Primitive& p : s.primitives) {
-    constexpr int kSteps = 16; // exact for bilinear functions: midpoint rule
+    constexpr int kSteps = 64; // exact for bilinear functions: midpoint rule
     for (int j = 0; j < kSteps; ++j)
       for (int i = 0; i < kSteps; ++i) {
         float u = (static_cast<float>(i) + 0.5f) / kSteps, v = (static_cast<float>(j) + 0.5f) / kSteps;
@@ -105,7 +106,7 @@ double area_of(const Scene& s, std::string_view name = "", double* sum = nullptr
 TEST(Polygons, faces_share_what_their_mesh_holds) {
   Scene s = scene_of("PointsPolygons [4 3] [0 1 2 3 0 2 4] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0 -1 1 0] "
                      "\"varying float heat\" [0 1 2 3 4] \"uniform float f\" [5 6]");
-  ASSERT_EQ(s.primitives.size(), 4u);
+  ASSERT_EQ(s.primitives.size(), 2u);
   for (const Primitive& p : s.primitives) {
     EXPECT_EQ(p.vars.source(), s.primitives[0].vars.source());
     EXPECT_EQ(p.state, s.primitives[0].state);
@@ -116,9 +117,50 @@ TEST(Polygons, faces_share_what_their_mesh_holds) {
   const PrimitiveList list = s.primitives;
   s = {};
   SurfaceLattice l;
-  float zero = 0;
-  list[3].geometry->evaluate({{&zero, 1}, {&zero, 1}}, l);
+  float one = 1;
+  list[1].geometry->evaluate({{&one, 1}, {&one, 1}}, l);
   EXPECT_EQ(l.P[0], Vec3(-1, 1, 0));
+}
+
+TEST(Polygons, triangles_begin_with_their_shortest_side) {
+  // Each corner in turn is the one opposite to it: a needle takes few points, whatever its first corner.
+  for (const char* P : {"0 0 0 .1 0 0 0 4 0", "0 4 0 0 0 0 .1 0 0", ".1 0 0 0 4 0 0 0 0"}) {
+    const Scene s = scene_of(std::string("Polygon \"P\" [") + P + "]");
+    ASSERT_EQ(s.primitives.size(), 1u);
+    const Primitive p = s.primitives[0];
+    for (float u : {0.0f, 0.3f, 1.0f}) {
+      EXPECT_NEAR(at(p, u, 0).P.x, 0.1f * u, 1e-7f) << P;
+      EXPECT_EQ(at(p, u, 1).P, Vec3(0, 4, 0)) << P;
+      EXPECT_GT(at(p, u, 1).N.z, 0) << P; // also at the corner that is a side
+    }
+    EXPECT_NEAR(area_of(s), 0.2, 1e-6);
+    const Rendered r = render_text(std::string("Format 100 100 1 ScreenWindow 0 5 0 5 WorldBegin "
+                                               "Translate 0 0 1 Polygon \"P\" [") +
+                                   P + "] WorldEnd");
+    EXPECT_LT(r.report.shaded_points, 400u);
+  }
+}
+
+TEST(Polygons, shapes_of_a_moving_triangle_have_the_same_corners) {
+  // Its shortest side is not that of its other shape. Halfway, corner by corner, it is a third triangle.
+  for (const std::string request : {"Polygon", "PointsPolygons [3] [0 1 2]"}) {
+    const std::string moving = "MotionBegin [0 1] " + request + " \"P\" [0 0 0 4 0 0 0 1 0] " + request +
+                               " \"P\" [0 0 0 1 0 0 0 4 0] MotionEnd ";
+    const std::string start = "Format 4 4 1 Shutter 0 1 WorldBegin ";
+    const Scene s = render_text(start + moving + "WorldEnd").scene;
+    ASSERT_EQ(s.primitives.size(), 1u);
+    const Primitive p = s.primitives[0];
+    ASSERT_EQ(p.deformation.size(), 2u);
+    const Primitive half = primitive_at(p, 0.5f);
+    EXPECT_EQ(at(half, 0, 0).P, Vec3(0, 0, 0));
+    EXPECT_EQ(at(half, 1, 0).P, Vec3(2.5f, 0, 0));
+    EXPECT_EQ(at(half, 0, 1).P, Vec3(0, 2.5f, 0));
+    // The same mesh where nothing moves has its own.
+    const Scene both =
+        render_text(start + request + " \"P\" [0 0 0 4 0 0 0 1 0] " + moving + "WorldEnd").scene;
+    EXPECT_EQ(at(both.primitives[0], 0, 0).P, Vec3(0, 1, 0));
+    EXPECT_EQ(at(primitive_at(both.primitives[1], 1), 0, 1).P, Vec3(0, 4, 0));
+  }
 }
 
 TEST(Polygons, concave_polygons_keep_their_shape_and_variables) {

@@ -219,6 +219,29 @@ TEST(HitGrid, derivatives_at_the_edges_of_a_surface) {
   EXPECT_NEAR(hits.grid.variable(slvm::Global::kP).get(0, 1), 1.25f, 1e-4f);
 }
 
+TEST(HitGrid, variables_of_triangles_are_those_of_the_place) {
+  // As far as to their corners, one of which is a side to u and v.
+  RayScene s("WorldBegin " + kSeen +
+             "Polygon \"P\" [-2 0 3 1 -1 3 0 5 3] \"varying float heat\" [-2 -1 10] WorldEnd"); // x + 2 y
+  const Vec3 corners[] = {{-2, 0, 3}, {1, -1, 3}, {0, 5, 3}};
+  std::vector<TestRay> rays;
+  for (const Vec3& corner : corners)
+    for (const Vec3& other : corners)
+      for (float way : {1e-4f, 1e-3f, 0.03f, 0.3f}) {
+        const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0f;
+        const Vec3 to = corner + (0.9f * other + 0.1f * centre - corner) * way;
+        rays.push_back({{0, 0, 0}, glm::mix(to, centre, 1e-6f)});
+      }
+  const auto hits =
+      s.trace(rays, {RayScene::output(slvm::RayOutput::From::kPrimitive, "heat", slvm::Type::kFloat)});
+  for (size_t k = 0; k < rays.size(); ++k) {
+    const Vec3 there = rays[k].direction;
+    ASSERT_EQ(hits[k].values.size(), 1u) << k;
+    ASSERT_EQ(hits[k].values[0].size(), 1u) << k;
+    EXPECT_NEAR(hits[k].values[0][0], there.x + 2 * there.y, 2e-3f) << k;
+  }
+}
+
 TEST(HitGrid, neighbours_are_left_out_behind_the_last_derivative) {
   // The same shader, once with a derivative at its end that changes nothing; a light whose colour varies,
   // loops and conditions behind and in front of derivatives.

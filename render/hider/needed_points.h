@@ -1,0 +1,34 @@
+// Which points of a grid have to be shaded, where shaders treat each by itself: the corners of micropolygons
+// that are drawn and that samples may see. Of a mesh of faces smaller than pixels, of hair, of the far side
+// of a ball that is most of the work saved.
+#pragma once
+
+#include "render/hider/sample_pattern.h"
+#include "render/hider/shaded_grid.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace render {
+
+class NeededPoints {
+public:
+  /// Finds them among those of a grid that nothing blurs. Without smooth shading a micropolygon has the looks
+  /// of its own corner; smooth ones need all four. Null: all micropolygons that are drawn have samples.
+  void find(const ShadedGrid& geometry, const SamplePattern* samples);
+  bool empty() const { return points_.empty(); }
+  /// Whether there are so few that it is worth while to take them out of a grid of `points`.
+  bool few(size_t points) const { return points_.size() * 5 < points * 4; }
+  std::span<const uint32_t> points() const { return points_; }
+
+  /// A grid of them alone, with all that `from` holds; valid until the next call.
+  slvm::Grid& take(const slvm::Grid& from, slvm::StringPool& strings);
+
+private:
+  std::vector<uint32_t> points_; ///< ascending
+  std::vector<uint8_t> needed_;
+  slvm::Grid grid_{1, 1};
+};
+
+} // namespace render
