@@ -8,13 +8,11 @@
 #include "render/hider/frame.h"
 
 #include "render/hider/after_filter.h"
-#include "render/hider/needed_points.h"
 #include "render/hider/random.h"
 #include "render/hider/sample_buffer.h"
 #include "render/hider/task_batch.h"
-#include "render/prims/dice.h"
+#include "render/hider/task_shader.h"
 #include "render/prims/join_tasks.h"
-#include "render/prims/motion.h"
 #include "render/prims/split.h"
 
 #include <tbb/global_control.h>
@@ -23,8 +21,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bitset>
-#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -60,9 +56,6 @@ public:
     if (camera_.has_lens()) sampling_.lens = &camera_;
     sampling_.mask = settings.mask;
     sampling_.mask_scale = {1 / static_cast<float>(options_.xres), 1 / static_cast<float>(options_.yres)};
-    for (const AovChannel& aov : settings.aovs)
-      if (slvm::Global g = slvm::find_global(aov.name); g != slvm::Global::kCount)
-        shown_.set(static_cast<size_t>(g));
     threads_ = thread_count(settings.threads);
     image_ = Image(image_rect(camera_.crop()), static_cast<int>(sampling_.aov_floats()));
   }
@@ -71,12 +64,9 @@ public:
 
 private:
   struct Worker {
-    std::unique_ptr<GridShader> shader;
+    std::optional<TaskShader> tasks;
     std::unique_ptr<SampleBuffer> samples;
-    slvm::Grid grid{2, 2};
-    std::vector<Primitive> pieces; ///< of that grid
-    NeededPoints needed;
-    FrameReport report;
+    slvm::Grid pixels{2, 2}; ///< for the imager
   };
 
   void split_all();
@@ -85,15 +75,11 @@ private:
   bool masked(const GridTask& task, const PixelRect& covered) const;
   void finish_bucket(const PixelRect& rect, Worker& worker);
   const ShadedGrid* shaded(TaskBatch& batch, uint32_t task, Worker& worker);
-  std::unique_ptr<const ShadedGrid> shade(const TaskBatch& batch, uint32_t task, Worker& worker);
-  void find_needed(const GridTask& task, const ShadedGrid& geometry, NeededPoints& out) const;
   /// Pixels of the frame to pixels of the image, which are samples when "subpixel" is asked for.
   PixelRect image_rect(const PixelRect& r) const {
     int x = options_.subpixel ? options_.xsamples : 1, y = options_.subpixel ? options_.ysamples : 1;
     return {r.x0 * x, r.y0 * y, r.x1 * x, r.y1 * y};
   }
-  static void count(const Primitive& primitive, const GridTask& task, size_t points,
-                    std::chrono::steady_clock::time_point started, FrameReport& report);
   void report_progress();
   template <class F> void for_all(size_t count, F&& f) const;
 
@@ -104,7 +90,6 @@ private:
   Camera camera_;
   SamplingSettings sampling_;
   AfterFilter after_filter_;
-  std::bitset<slvm::kGlobalCount> shown_; ///< predefined variables that displays ask for
   int threads_;
   Image image_;
   const SamplePattern pattern_; ///< positions alone
@@ -131,7 +116,8 @@ Image FrameRenderer::run(FrameReport& report) {
     for_all(workers.size(), [&](size_t w) {
       Worker& worker = workers[w];
       for (size_t b; (b = next_bucket_.fetch_add(1)) < buckets_.size();) {
-        if (!worker.shader) worker.shader = shading_.make_grid_shader();
+        if (!worker.tasks)
+          worker.tasks.emplace(TaskSettings{options_, camera_, pattern_, settings_.aovs}, shading_);
         auto columns = static_cast<size_t>(layout_.columns);
         render_bucket(static_cast<int>(b % columns), static_cast<int>(b / columns), worker);
         report_progress();
@@ -145,19 +131,8 @@ Image FrameRenderer::run(FrameReport& report) {
   report.primitives += content_.primitives();
   report.split_primitives += split_count_ + content_.split();
   report.grids += batch_.tasks.size() + content_.grids();
-  for (const Worker& w : workers) {
-    report.shaded_grids += w.report.shaded_grids;
-    report.shaded_points += w.report.shaded_points;
-    report.micropolygons += w.report.micropolygons;
-    report.variables |= w.report.variables;
-    report.bad_colours += w.report.bad_colours;
-    for (const auto& [name, cost] : w.report.shaders) {
-      ShaderCost& sum = report.shaders[name];
-      sum.seconds += cost.seconds;
-      sum.grids += cost.grids;
-      sum.points += cost.points;
-    }
-  }
+  for (const Worker& w : workers)
+    if (w.tasks) report.add_shading(w.tasks->report());
   return std::move(image_);
 }
 
@@ -284,7 +259,7 @@ bool FrameRenderer::masked(const GridTask& task, const PixelRect& covered) const
 }
 
 void FrameRenderer::finish_bucket(const PixelRect& rect, Worker& worker) {
-  after_filter_.run(rect, image_, *worker.shader, worker.grid);
+  after_filter_.run(rect, image_, worker.tasks->shader(), worker.pixels);
   if (settings_.finished) settings_.finished(image_, rect);
 }
 
@@ -294,7 +269,7 @@ const ShadedGrid* FrameRenderer::shaded(TaskBatch& batch, uint32_t task, Worker&
   GridSlot& slot = batch.slots[task];
   uint8_t expected = GridSlot::kNew;
   if (slot.state.compare_exchange_strong(expected, GridSlot::kBusy)) {
-    slot.grid = shade(batch, task, worker);
+    slot.grid = worker.tasks->shade(batch, task);
     slot.state = GridSlot::kDone;
     slot.state.notify_all();
   } else {
@@ -304,94 +279,6 @@ const ShadedGrid* FrameRenderer::shaded(TaskBatch& batch, uint32_t task, Worker&
     }
   }
   return slot.grid.get();
-}
-
-void FrameRenderer::count(const Primitive& primitive, const GridTask& task, size_t points,
-                          std::chrono::steady_clock::time_point started, FrameReport& report) {
-  std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
-  const auto& surface = primitive.attributes().surface;
-  ShaderCost& cost = report.shaders[surface ? surface->name : "none"];
-  cost.seconds += seconds.count();
-  ++cost.grids;
-  cost.points += points;
-  ++report.shaded_grids;
-  report.shaded_points += points;
-  report.micropolygons += task.pieces * static_cast<size_t>(task.nu - 1) * static_cast<size_t>(task.nv - 1);
-}
-
-/// Of a grid that nothing blurs, whose points are shaded each by itself.
-void FrameRenderer::find_needed(const GridTask& task, const ShadedGrid& geometry, NeededPoints& out) const {
-  // Whether many micropolygons can lie between samples.
-  const bool small = task.pieces > 1 || task.step * task.step * static_cast<float>(options_.xsamples) *
-                                                static_cast<float>(options_.ysamples) <
-                                            2;
-  out.find(geometry, small ? &pattern_ : nullptr);
-}
-
-/// Null when nothing of the grid can be seen.
-std::unique_ptr<const ShadedGrid> FrameRenderer::shade(const TaskBatch& batch, uint32_t index,
-                                                       Worker& worker) {
-  const GridTask& task = batch.tasks[index];
-  std::vector<Primitive>& pieces = worker.pieces;
-  pieces.clear();
-  for (uint32_t k = 0; k < task.pieces; ++k)
-    pieces.push_back((*batch.primitives)[task.primitive + k]);
-  const Primitive& primitive = pieces.front();
-  const uint64_t id = batch.id ^ index;
-  DiceContext context{&camera_, &shading_.strings(), options_.shutter_open + options_.shutter_offset,
-                      options_.shutter_close - options_.shutter_open};
-  slvm::Grid& grid = worker.grid;
-  const Attributes& a = primitive.attributes();
-  ReadVariables read;
-  read.predefined = worker.shader->reads(primitive) | shown_;
-  if (a.sides == 1) read.predefined.set(static_cast<size_t>(slvm::Global::kNg)); // for faces_away()
-  dice(pieces, task, id, context, read, grid);
-  auto started = std::chrono::steady_clock::now();
-  std::optional<GridOutline> outline;
-  if (!primitive.geometry->ruled() && primitive.attributes().stitch && pieces.size() == 1)
-    outline = find_outline(grid, task.rect, camera_, task.step);
-  if (worker.shader->displace(primitive, grid)) renew_geometry(camera_, grid);
-  std::vector<float> times = motion_times(primitive);
-  const SolidTree* solid = primitive.state->solid.get();
-  if (times.empty() && a.sides == 1 && a.cull_backfacing && a.back_face_tolerance == 0 && !solid &&
-      faces_away(grid, camera_))
-    return nullptr;
-  std::vector<slvm::Grid> moved;
-  for (size_t i = 1; i < times.size(); ++i) {
-    std::vector<Primitive> there;
-    for (const Primitive& piece : pieces)
-      there.push_back(primitive_at(piece, times[i]));
-    slvm::Grid& later = moved.emplace_back(2, 2);
-    dice(there, task, id, context, read, later);
-    worker.shader->displace(there.front(), later);
-  }
-  if (!moved.empty()) set_motion(grid, moved.back(), context.dtime);
-  auto geometry = [&] {
-    return std::make_unique<ShadedGrid>(
-        make_grid_geometry(primitive, grid, camera_, outline ? &*outline : nullptr));
-  };
-  std::unique_ptr<ShadedGrid> out;
-  slvm::Grid* shaded = &grid;
-  std::span<const uint32_t> some;
-  if (moved.empty() && !camera_.has_lens() && a.cull_hidden && worker.shader->point_by_point(primitive)) {
-    out = geometry();
-    find_needed(task, *out, worker.needed);
-    if (worker.needed.empty()) return nullptr;
-    if (worker.needed.few(grid.points())) {
-      some = worker.needed.points();
-      shaded = &worker.needed.take(grid, shading_.strings());
-    }
-  }
-  worker.shader->shade(primitive, *shaded);
-  count(primitive, task, shaded->points(), started, worker.report);
-  if (!out) out = geometry(); // surface shaders may have moved P
-  add_looks(*out, primitive, *shaded, some, settings_.aovs, *worker.shader);
-  for (size_t i = 0; i < moved.size() && options_.sample_motion; ++i)
-    add_positions(*out, times[i + 1], moved[i], camera_, outline ? &*outline : nullptr);
-  if (solid) out->cut_near = batch.solids.at(solid).cut_near[primitive.state->solid_primitive];
-  worker.report.variables |= out->variables;
-  worker.report.bad_colours += out->bad_colours;
-  return out;
 }
 
 void FrameRenderer::report_progress() {

@@ -3,15 +3,13 @@
 #pragma once
 
 #include "render/hider/depth_mask.h"
+#include "render/hider/frame_report.h"
 #include "render/hider/image.h"
 #include "render/hider/task_batch.h"
 #include "render/shading/grid_shader.h"
 #include "render/state/scene.h"
 
 #include <functional>
-#include <map>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace render {
@@ -27,22 +25,6 @@ struct FrameSettings {
   /// Called with the pixels of a bucket when they are finished, imager included; from several threads at
   /// once.
   std::function<void(const Image&, const PixelRect&)> finished;
-};
-
-/// What the grids of one surface shader cost, displacement and lights included, on all threads together.
-struct ShaderCost {
-  double seconds = 0;
-  size_t grids = 0, points = 0;
-};
-
-/// What a user should be told about a frame.
-struct FrameReport {
-  size_t primitives = 0, split_primitives = 0, grids = 0, shaded_grids = 0, shaded_points = 0,
-         micropolygons = 0;
-  std::map<std::string, ShaderCost> shaders; ///< by name of the surface shader
-  uint64_t variables =
-      0; ///< a bit for each of the first 64 FrameSettings::aovs that some grid had a value for
-  size_t bad_colours = 0; ///< shading points whose colour was not a finite number
 };
 
 /// The threads that FrameSettings::threads stands for.

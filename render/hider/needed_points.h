@@ -18,17 +18,13 @@ public:
   /// of its own corner; smooth ones need all four. Null: all micropolygons that are drawn have samples.
   void find(const ShadedGrid& geometry, const SamplePattern* samples);
   bool empty() const { return points_.empty(); }
-  /// Whether there are so few that it is worth while to take them out of a grid of `points`.
+  /// Whether there are so few of all `points` that it is worth while to shade them alone.
   bool few(size_t points) const { return points_.size() * 5 < points * 4; }
-  std::span<const uint32_t> points() const { return points_; }
-
-  /// A grid of them alone, with all that `from` holds; valid until the next call.
-  slvm::Grid& take(const slvm::Grid& from, slvm::StringPool& strings);
+  std::span<const uint32_t> points() const { return points_; } ///< ascending
 
 private:
-  std::vector<uint32_t> points_; ///< ascending
+  std::vector<uint32_t> points_;
   std::vector<uint8_t> needed_;
-  slvm::Grid grid_{1, 1};
 };
 
 } // namespace render

@@ -264,16 +264,62 @@ void Dicer::set_primvar(size_t index) {
 
 /// du or dv, from the part of the shaders' u and v that each piece is: varying only where pieces differ.
 template <class Step>
-void set_steps(slvm::Grid& grid, Global g, std::span<const Primitive> pieces, Step&& step) {
-  float first = step(pieces.front().uv);
+void set_steps(slvm::Grid& grid, Global g, std::span<const SurfacePoints> parts, Step&& step) {
+  auto of = [&](const SurfacePoints& part) { return step(part.primitive->uv); };
+  const float first = of(parts.front());
   grid.set_uniform(g, {&first, 1});
-  bool same =
-      std::all_of(pieces.begin(), pieces.end(), [&](const Primitive& p) { return step(p.uv) == first; });
-  if (same) return;
+  if (std::all_of(parts.begin(), parts.end(), [&](const SurfacePoints& p) { return of(p) == first; })) return;
   float* steps = grid.varying(g);
-  size_t points = grid.points() / pieces.size();
-  for (size_t i = 0; i < pieces.size(); ++i)
-    std::fill_n(steps + i * points, points, step(pieces[i].uv));
+  for (const SurfacePoints& part : parts)
+    std::fill_n(steps + part.first, part.at.size(), of(part));
+}
+
+/// The parameters of a lattice.
+struct Lines {
+  std::vector<float> u, v;
+  explicit Lines(const GridTask& task)
+      : u(parameters(task.rect.u0, task.rect.u1, task.nu)),
+        v(parameters(task.rect.v0, task.rect.v1, task.nv)) {}
+  float du() const { return (u.back() - u.front()) / static_cast<float>(u.size() - 1); }
+  float dv() const { return (v.back() - v.front()) / static_cast<float>(v.size() - 1); }
+};
+
+/// An empty grid for the whole lattices of pieces.
+void begin_lattice(size_t pieces, const GridTask& task, slvm::Grid& grid) {
+  grid.reset(task.nu, task.nv * static_cast<int>(pieces));
+  if (pieces == 1) return;
+  grid.lattice = slvm::Lattice::kPieces;
+  grid.piece_rows = task.nv;
+}
+
+/// What geometry gives at all parts, one after the other.
+void evaluate(std::span<const SurfacePoints> parts, SurfaceLattice& out) {
+  if (parts.size() == 1) return parts[0].primitive->geometry->evaluate(parts[0].at, out);
+  SurfaceLattice piece;
+  for (const SurfacePoints& part : parts) {
+    part.primitive->geometry->evaluate(part.at, piece);
+    out.append(piece);
+  }
+}
+
+/// A grid that has its size, with all there is.
+void dice_parts(std::span<const SurfacePoints> parts, const Lines& lines, uint64_t id,
+                const DiceContext& context, const ReadVariables& read, slvm::Grid& grid) {
+  grid.derivatives = true;
+  grid.id = id;
+  SurfaceLattice lattice;
+  evaluate(parts, lattice);
+  dice_geometry(parts, lattice, read, grid);
+  if (read.has(Global::kI)) {
+    Triple P = triple(grid, Global::kP), I = triple(grid, Global::kI);
+    for (size_t k = 0; k < grid.points(); ++k)
+      I.set(k, context.camera->incident(P.get(k)));
+  }
+  dice_variables(parts, context, read, grid);
+  set_steps(grid, Global::kdu, parts,
+            [&](const UvRect& whole) { return (whole.u1 - whole.u0) * lines.du(); });
+  set_steps(grid, Global::kdv, parts,
+            [&](const UvRect& whole) { return (whole.v1 - whole.v0) * lines.dv(); });
 }
 
 } // namespace
@@ -293,37 +339,49 @@ bool is_st(const PatchVar& var) {
 
 void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, const DiceContext& context,
           const ReadVariables& read, slvm::Grid& grid) {
-  grid.reset(task.nu, task.nv * static_cast<int>(pieces.size()));
-  if (pieces.size() > 1) {
-    grid.lattice = slvm::Lattice::kPieces;
-    grid.piece_rows = task.nv;
-  }
-  grid.derivatives = true;
-  grid.id = id;
-  std::vector<float> u = parameters(task.rect.u0, task.rect.u1, task.nu),
-                     v = parameters(task.rect.v0, task.rect.v1, task.nv);
-  const UvPoints at{u, v};
+  begin_lattice(pieces.size(), task, grid);
+  const Lines lines(task);
+  const UvPoints at{lines.u, lines.v};
   std::vector<SurfacePoints> parts;
-  SurfaceLattice lattice, piece_lattice;
-  for (const Primitive& piece : pieces) {
-    parts.push_back({&piece, at, lattice.P.size()});
-    piece.geometry->evaluate(at, piece_lattice);
-    if (pieces.size() == 1)
-      std::swap(lattice, piece_lattice);
-    else
-      lattice.append(piece_lattice);
+  for (const Primitive& piece : pieces)
+    parts.push_back({&piece, at, parts.size() * at.size()});
+  dice_parts(parts, lines, id, context, read, grid);
+}
+
+void dice_positions(std::span<const Primitive> pieces, const GridTask& task, slvm::Grid& grid) {
+  begin_lattice(pieces.size(), task, grid);
+  const PrimitiveState& state = *pieces.front().state;
+  grid.flip_normals = state.attributes->flips_normals(state.mirrored);
+  const Lines lines(task);
+  const UvPoints at{lines.u, lines.v};
+  Triple P = triple(grid, Global::kP);
+  SurfaceLattice piece;
+  for (const Primitive& p : pieces) {
+    p.geometry->find_points(at, piece);
+    transform_points(p.state->object_to_camera, piece.P, 0, at.size(), P);
+    P = {P.x + at.size(), P.y + at.size(), P.z + at.size()};
   }
-  dice_geometry(parts, lattice, read, grid);
-  if (read.has(Global::kI)) {
-    Triple P = triple(grid, Global::kP), I = triple(grid, Global::kI);
-    for (size_t k = 0; k < grid.points(); ++k)
-      I.set(k, context.camera->incident(P.get(k)));
+}
+
+void dice_some(std::span<const Primitive> pieces, const GridTask& task, std::span<const uint32_t> points,
+               uint64_t id, const DiceContext& context, const ReadVariables& read, slvm::Grid& grid) {
+  grid.reset(static_cast<int>(points.size()), 1);
+  grid.lattice = slvm::Lattice::kHits;
+  const Lines lines(task);
+  const size_t nu = lines.u.size(), of_piece = nu * lines.v.size();
+  std::vector<float> u, v;
+  u.reserve(points.size());
+  v.reserve(points.size());
+  std::vector<SurfacePoints> parts;
+  for (size_t first = 0, end = 0; first < points.size(); first = end) {
+    const size_t piece = points[first] / of_piece;
+    for (; end < points.size() && points[end] / of_piece == piece; ++end) {
+      u.push_back(lines.u[points[end] % nu]);
+      v.push_back(lines.v[points[end] / nu % lines.v.size()]);
+    }
+    parts.push_back({&pieces[piece], {{&u[first], end - first}, {&v[first], end - first}, true}, first});
   }
-  dice_variables(parts, context, read, grid);
-  float du = (u.back() - u.front()) / static_cast<float>(u.size() - 1);
-  float dv = (v.back() - v.front()) / static_cast<float>(v.size() - 1);
-  set_steps(grid, Global::kdu, pieces, [&](const UvRect& whole) { return (whole.u1 - whole.u0) * du; });
-  set_steps(grid, Global::kdv, pieces, [&](const UvRect& whole) { return (whole.v1 - whole.v0) * dv; });
+  dice_parts(parts, lines, id, context, read, grid);
 }
 
 void dice_geometry(std::span<const SurfacePoints> parts, const SurfaceLattice& lattice,
