@@ -3,6 +3,8 @@
 
 #include "render/prims/motion.h"
 
+#include <bit>
+
 namespace render {
 
 TaskShader::TaskShader(const TaskSettings& settings, Shading& shading)
@@ -18,8 +20,8 @@ TaskShader::TaskShader(const TaskSettings& settings, Shading& shading)
 std::unique_ptr<const ShadedGrid> TaskShader::shade(const TaskBatch& batch, uint32_t index) {
   const GridTask& task = batch.tasks[index];
   pieces_.clear();
-  for (uint32_t k = 0; k < task.pieces; ++k)
-    pieces_.push_back((*batch.primitives)[task.primitive + k]);
+  for (uint64_t left = task.pieces; left != 0; left &= left - 1)
+    pieces_.push_back((*batch.primitives)[task.primitive + static_cast<uint32_t>(std::countr_zero(left))]);
   const PrimitiveState& state = *pieces_.front().state;
   read_.predefined = shader_->reads(pieces_.front()) | shown_;
   const uint64_t id = batch.id ^ index;
@@ -88,7 +90,7 @@ std::unique_ptr<ShadedGrid> TaskShader::shade_needed(const GridTask& task, uint6
 /// Whether many micropolygons can lie between samples.
 bool TaskShader::is_small(const GridTask& task) const {
   const Options& o = settings_.options;
-  return task.pieces > 1 ||
+  return task.count() > 1 ||
          task.step * task.step * static_cast<float>(o.xsamples) * static_cast<float>(o.ysamples) < 2;
 }
 
@@ -120,7 +122,8 @@ void TaskShader::count(const GridTask& task, std::chrono::steady_clock::time_poi
   cost.points += grid_.points();
   ++report_.shaded_grids;
   report_.shaded_points += grid_.points();
-  report_.micropolygons += task.pieces * static_cast<size_t>(task.nu - 1) * static_cast<size_t>(task.nv - 1);
+  report_.micropolygons +=
+      static_cast<size_t>(task.count()) * static_cast<size_t>((task.nu - 1) * (task.nv - 1));
 }
 
 } // namespace render

@@ -7,6 +7,8 @@ namespace {
 
 /// Of a task that is worth joining to others, and of what comes of it.
 constexpr int kSmall = 25, kMostPoints = 256;
+/// From the first primitive of a grid to its last one: bits of GridTask::pieces.
+constexpr uint32_t kReach = 64;
 /// Pixels that a joined grid may be wider and higher than its pieces, whose bounds for displacement may be
 /// wide already: it is shaded as a whole, also where it is hidden.
 constexpr float kMostPixels = 32;
@@ -58,12 +60,14 @@ void join_tasks(const PrimitiveList& primitives, std::vector<GridTask>& tasks) {
       GridTask& run = tasks[kept - 1];
       Vec2 low = glm::min(run.raster_min, task.raster_min), high = glm::max(run.raster_max, task.raster_max);
       int nu = std::max(run.nu, task.nu), nv = std::max(run.nv, task.nv);
-      int points = static_cast<int>(run.pieces + 1) * nu * nv;
+      int points = (run.count() + 1) * nu * nv;
+      // Between them there may be some that are not seen.
+      const uint32_t place = task.primitive - run.primitive;
       float both = wanted + static_cast<float>(task.nu * task.nv);
       bool room = points <= kMostPoints && static_cast<float>(points) <= kMostWaste * both &&
                   is_near(high - low, task);
-      if (room && task.primitive == run.primitive + run.pieces && task.step == run.step && own == kind) {
-        ++run.pieces;
+      if (room && place < kReach && run.pieces >> place == 0 && task.step == run.step && own == kind) {
+        run.pieces |= uint64_t{1} << place;
         wanted = both;
         run.nu = nu;
         run.nv = nv;

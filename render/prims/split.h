@@ -6,6 +6,7 @@
 #include "render/prims/primitive.h"
 #include "render/state/camera.h"
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -15,13 +16,16 @@ namespace render {
 /// A piece that is ready to be diced.
 struct GridTask {
   uint32_t primitive = 0; ///< index in the scene
-  /// As many primitives from there on, the whole of each, one lattice above the other (join_tasks.h).
-  uint32_t pieces = 1;
+  /// A bit for each of the primitives from there on: the whole of each of these is in the grid, one lattice
+  /// above the other (join_tasks.h).
+  uint64_t pieces = 1;
   UvRect rect;
   int nu = 2, nv = 2; ///< points of the lattice, of each piece
   Vec2 raster_min, raster_max;
   float zmin = 0, zmax = 0; ///< nearest and farthest camera z of its bound
   float step = 1;           ///< side of a micropolygon in pixels
+
+  int count() const { return std::popcount(pieces); } ///< pieces
 };
 
 struct SplitSettings {

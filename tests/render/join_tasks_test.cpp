@@ -58,12 +58,27 @@ TEST(JoinTasks, faces_of_a_mesh_share_a_grid) {
   Joined j(squares(10, 0.05f));
   ASSERT_EQ(j.apart.size(), 10u);
   ASSERT_EQ(j.together.size(), 1u);
-  EXPECT_EQ(j.together[0].pieces, 10u);
+  EXPECT_EQ(j.together[0].pieces, 0x3ffu);
+  EXPECT_EQ(j.together[0].count(), 10);
   for (const GridTask& t : j.apart) {
     EXPECT_LE(j.together[0].raster_min.x, t.raster_min.x);
     EXPECT_GE(j.together[0].raster_max.x, t.raster_max.x);
     EXPECT_LE(j.together[0].zmin, t.zmin);
   }
+}
+
+TEST(JoinTasks, those_between_that_are_not_seen_are_left_out) {
+  Joined j(squares(100, 0.005f));
+  ASSERT_EQ(j.apart.size(), 100u);
+  std::vector<GridTask> some;
+  for (size_t k : {3, 4, 9, 66, 67, 90})
+    some.push_back(j.apart[k]);
+  join_tasks(j.scene.primitives, some);
+  ASSERT_EQ(some.size(), 2u);
+  EXPECT_EQ(some[0].primitive, 3u);
+  EXPECT_EQ(some[0].pieces, (uint64_t{1} << 63) | 0b1000011u);
+  EXPECT_EQ(some[1].primitive, 67u);
+  EXPECT_EQ(some[1].pieces, (uint64_t{1} << 23) | 1u);
 }
 
 TEST(JoinTasks, what_differs_stays_apart) {
