@@ -73,12 +73,13 @@ std::unique_ptr<ShadedGrid> TaskShader::shade_needed(const GridTask& task, uint6
   auto out = place(outline ? &*outline : nullptr);
   needed_.find(*out, is_small(task) ? &settings_.pattern : nullptr);
   if (needed_.empty()) return nullptr;
+  const Primitive& primitive = pieces_.front();
   const bool few = needed_.few(grid_.points());
   if (few)
-    dice_some(pieces_, task, needed_.points(), id, context_, read_, grid_);
+    dice_some(pieces_, task, needed_.points(), shader_->needs(primitive) == PointNeeds::kNeighbours, id,
+              context_, read_, grid_);
   else
     dice(pieces_, task, id, context_, read_, grid_);
-  const Primitive& primitive = pieces_.front();
   shader_->displace(primitive, grid_); // there is nothing to displace: a beginning
   shader_->shade(primitive, grid_);
   count(task, started);
@@ -99,8 +100,11 @@ bool TaskShader::may_leave_out(const GridTask& task) const {
   const Primitive& primitive = pieces_.front();
   const Attributes& a = primitive.attributes();
   if (!a.cull_hidden || settings_.camera.has_lens() || !motion_times(primitive).empty()) return false;
+  const PointNeeds needs = shader_->needs(primitive);
+  // The other corners of a single micropolygon are all the neighbours that its own one has.
+  if (needs == PointNeeds::kNeighbours) return !a.smooth_shading && task.nu == 2 && task.nv == 2;
   const bool few_corners = !a.smooth_shading && (task.nu - 1) * (task.nv - 1) * 5 < task.nu * task.nv * 4;
-  return (few_corners || is_small(task)) && shader_->point_by_point(primitive);
+  return needs == PointNeeds::kNothing && (few_corners || is_small(task));
 }
 
 std::optional<GridOutline> TaskShader::outline_of(const GridTask& task) const {
@@ -119,9 +123,9 @@ void TaskShader::count(const GridTask& task, std::chrono::steady_clock::time_poi
   ShaderCost& cost = report_.shaders[surface ? surface->name : "none"];
   cost.seconds += seconds.count();
   ++cost.grids;
-  cost.points += grid_.points();
+  cost.points += grid_.samples();
   ++report_.shaded_grids;
-  report_.shaded_points += grid_.points();
+  report_.shaded_points += grid_.samples();
   report_.micropolygons +=
       static_cast<size_t>(task.count()) * static_cast<size_t>((task.nu - 1) * (task.nv - 1));
 }

@@ -364,23 +364,28 @@ void dice_positions(std::span<const Primitive> pieces, const GridTask& task, slv
 }
 
 void dice_some(std::span<const Primitive> pieces, const GridTask& task, std::span<const uint32_t> points,
-               uint64_t id, const DiceContext& context, const ReadVariables& read, slvm::Grid& grid) {
-  grid.reset(static_cast<int>(points.size()), 1);
-  grid.lattice = slvm::Lattice::kHits;
+               bool beside, uint64_t id, const DiceContext& context, const ReadVariables& read,
+               slvm::Grid& grid) {
   const Lines lines(task);
-  const size_t nu = lines.u.size(), of_piece = nu * lines.v.size();
+  const size_t nu = lines.u.size(), of_piece = nu * lines.v.size(), count = points.size();
+  const size_t rows = beside ? 3 : 1, steps[] = {0, 1, nu}; // from a point to those of its rows
+  grid.reset(static_cast<int>(count), static_cast<int>(rows));
+  grid.lattice = slvm::Lattice::kHits;
   std::vector<float> u, v;
-  u.reserve(points.size());
-  v.reserve(points.size());
+  u.reserve(rows * count);
+  v.reserve(rows * count);
   std::vector<SurfacePoints> parts;
-  for (size_t first = 0, end = 0; first < points.size(); first = end) {
-    const size_t piece = points[first] / of_piece;
-    for (; end < points.size() && points[end] / of_piece == piece; ++end) {
-      u.push_back(lines.u[points[end] % nu]);
-      v.push_back(lines.v[points[end] / nu % lines.v.size()]);
+  for (size_t row = 0; row < rows; ++row)
+    for (size_t first = 0, end = 0; first < count; first = end) {
+      const size_t piece = points[first] / of_piece, from = u.size();
+      for (; end < count && points[end] / of_piece == piece; ++end) {
+        const size_t at = points[end] % of_piece + steps[row];
+        u.push_back(lines.u[at % nu]);
+        v.push_back(lines.v[at / nu]);
+      }
+      parts.push_back(
+          {&pieces[piece], {{&u[from], end - first}, {&v[from], end - first}, true}, from, row > 0});
     }
-    parts.push_back({&pieces[piece], {{&u[first], end - first}, {&v[first], end - first}, true}, first});
-  }
   dice_parts(parts, lines, id, context, read, grid);
 }
 

@@ -52,9 +52,11 @@ void dice(std::span<const Primitive> pieces, const GridTask& task, uint64_t id, 
 /// Only P, on the same lattice.
 void dice_positions(std::span<const Primitive> pieces, const GridTask& task, slvm::Grid& grid);
 
-/// Some points of that lattice, by their numbers in it, ascending: as hits, which have no neighbours.
+/// Some points of that lattice, by their numbers in it, ascending: as hits. `beside`: with their neighbours
+/// along u and v, which they must have.
 void dice_some(std::span<const Primitive> pieces, const GridTask& task, std::span<const uint32_t> points,
-               uint64_t id, const DiceContext& context, const ReadVariables& read, slvm::Grid& grid);
+               bool beside, uint64_t id, const DiceContext& context, const ReadVariables& read,
+               slvm::Grid& grid);
 
 /// Fills P, N, tangents and the geometric normal of some of a grid's points; `lattice` is what the geometry
 /// of the primitives gives at each, by their numbers in the grid. The last three are left out where nobody

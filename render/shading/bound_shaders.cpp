@@ -155,39 +155,52 @@ std::bitset<slvm::kGlobalCount> read_by(const BoundAttributes& bound) {
   return out;
 }
 
-/// Whether a program of these shaders calls a function for which f(program, id) is true.
-template <class F> bool calls(const BoundAttributes& bound, F&& f) {
-  auto any = [&](const slvm::Program& p) {
-    return std::any_of(p.imports.begin(), p.imports.end(), [&](slvm::ShadeopId id) { return f(p, id); });
-  };
-  const slvm::ShaderSet& s = bound.shaders;
-  return std::any_of(bound.lights.begin(), bound.lights.end(),
-                     [&](const slvm::Instance* light) { // surfaces may send it other values
-                       return any(light->shader().program());
-                     }) ||
-         std::ranges::any_of(std::array{s.displacement, s.surface, s.atmosphere},
-                             [&](const slvm::Instance* shader) { return shader && any(shader->program()); });
+using Called = bool (*)(const slvm::Program&, slvm::ShadeopId);
+
+/// Whether it calls a function of which that is true.
+bool calls(const slvm::Instance* shader, Called what) {
+  // What values made of the program; not of lights, to which surfaces may send others.
+  const bool light = shader && shader->shader().kind() == slvm::ShaderKind::kLight;
+  return shader &&
+         std::ranges::any_of((light ? shader->shader().program() : shader->program()).imports,
+                             [&](slvm::ShadeopId id) {
+                               return what(light ? shader->shader().program() : shader->program(), id);
+                             });
 }
 
-bool has_effects(const BoundAttributes& bound) {
-  return calls(bound, [](const slvm::Program& p, slvm::ShadeopId id) {
-    return p.plugins.find(id) || (p.plugins.info(id).flags & slvm::kEffect);
-  });
+bool lights_or_air_call(const BoundAttributes& bound, Called what) {
+  return calls(bound.shaders.atmosphere, what) ||
+         std::ranges::any_of(bound.lights, [&](const slvm::Instance* light) { return calls(light, what); });
 }
 
-/// No derivatives and no rays, which have footprints, no random numbers, which go by the numbers of points,
-/// and no point moved.
-bool is_point_by_point(const BoundAttributes& bound) {
-  auto of_more = [](const slvm::Program& p, slvm::ShadeopId id) {
-    const slvm::ShadeopInfo& info = p.plugins.info(id);
-    const bool random = info.kind == slvm::ShadeopKind::kKernel && (info.flags & slvm::kHiddenVarying);
-    return random || (info.flags & (slvm::kDerivative | slvm::kRays));
-  };
-  if (bound.shaders.displacement || bound.has_effects || calls(bound, of_more)) return false;
+bool any_calls(const BoundAttributes& bound, Called what) {
+  return calls(bound.shaders.displacement, what) || calls(bound.shaders.surface, what) ||
+         lights_or_air_call(bound, what);
+}
+
+bool has_effects(const slvm::Program& p, slvm::ShadeopId id) {
+  return p.plugins.find(id) || (p.plugins.info(id).flags & slvm::kEffect);
+}
+
+/// Rays have footprints.
+bool differentiates(const slvm::Program& p, slvm::ShadeopId id) {
+  return p.plugins.info(id).flags & (slvm::kDerivative | slvm::kRays);
+}
+
+/// Random numbers go by the numbers of points.
+bool is_random(const slvm::Program& p, slvm::ShadeopId id) {
+  const slvm::ShadeopInfo& info = p.plugins.info(id);
+  return info.kind == slvm::ShadeopKind::kKernel && (info.flags & slvm::kHiddenVarying);
+}
+
+PointNeeds needs_of(const BoundAttributes& bound) {
   const slvm::Instance* surface = bound.shaders.surface;
-  return !surface || std::ranges::none_of(surface->program().slots, [](const slvm::Slot& s) {
-    return s.stored && !s.parameter && s.name == "P";
-  });
+  const bool moves = surface && std::ranges::any_of(surface->program().slots, [](const slvm::Slot& s) {
+                       return s.stored && !s.parameter && s.name == "P";
+                     });
+  if (bound.shaders.displacement || bound.has_effects || moves || any_calls(bound, is_random))
+    return PointNeeds::kGrid;
+  return any_calls(bound, differentiates) ? PointNeeds::kNeighbours : PointNeeds::kNothing;
 }
 
 } // namespace
@@ -204,8 +217,9 @@ BoundShaders::Binder::bind(const std::shared_ptr<const Attributes>& a) {
   for (const auto& light : a->lights)
     if (const slvm::Instance* instance = bind(light)) bound->lights.push_back(instance);
   bound->read = read_by(*bound);
-  bound->has_effects = has_effects(*bound);
-  bound->point_by_point = is_point_by_point(*bound);
+  bound->has_effects = any_calls(*bound, has_effects);
+  bound->points_need = needs_of(*bound);
+  bound->surface_differentiates_alone = !lights_or_air_call(*bound, differentiates);
   return bound;
 }
 

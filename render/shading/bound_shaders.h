@@ -1,6 +1,7 @@
 // The shaders of a scene, loaded and bound before its first grid: every message about them comes up front.
 #pragma once
 
+#include "render/shading/point_needs.h"
 #include "render/shading/shader_loader.h"
 #include "render/state/scene.h"
 #include "slvm/machine.h"
@@ -43,9 +44,9 @@ struct BoundAttributes {
   /// The predefined variables that surface, atmosphere, volumes and lights read, and the defaults of their
   /// parameters; all that a plug-in may ask for. Displacement may need more: it makes geometry anew.
   std::bitset<slvm::kGlobalCount> read;
-  /// Each point of a grid is shaded by itself: what shading gives there does not depend on which others there
-  /// are, and shading a point does nothing else.
-  bool point_by_point = false;
+  PointNeeds points_need = PointNeeds::kGrid;
+  /// Neither lights nor the atmosphere differentiate, or trace rays.
+  bool surface_differentiates_alone = false;
   /// Shading does more than give colours: it writes files, prints, or calls plug-ins, which may do anything.
   bool has_effects = false;
   bool same_as(const BoundAttributes& b) const {

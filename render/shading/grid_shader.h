@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/prims/primitive.h"
+#include "render/shading/point_needs.h"
 #include "slvm/grid.h"
 #include "slvm/support/string_pool.h"
 
@@ -20,8 +21,8 @@ public:
   virtual std::bitset<slvm::kGlobalCount> reads(const Primitive&) const {
     return std::bitset<slvm::kGlobalCount>().set();
   }
-  /// Whether each point is shaded by itself, so that some can be left out; such primitives are not displaced.
-  virtual bool point_by_point(const Primitive&) const { return false; }
+  /// Other points can be left out.
+  virtual PointNeeds needs(const Primitive&) const { return PointNeeds::kGrid; }
   /// Begins a grid: runs the displacement shader. False: the primitive has none, and the grid is as it was.
   virtual bool displace(const Primitive&, slvm::Grid&) = 0;
   /// Sets Ci and Oi.

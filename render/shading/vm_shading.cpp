@@ -17,8 +17,8 @@ public:
     return bound.shaders.displacement ? GridShader::reads(primitive) : bound.read;
   }
 
-  bool point_by_point(const Primitive& primitive) const override {
-    return shaders_.find(&primitive.attributes())->point_by_point;
+  PointNeeds needs(const Primitive& primitive) const override {
+    return shaders_.find(&primitive.attributes())->points_need;
   }
 
   bool displace(const Primitive& primitive, slvm::Grid& grid) override {
@@ -29,8 +29,10 @@ public:
     return true;
   }
 
-  void shade(const Primitive&, slvm::Grid& grid) override {
+  void shade(const Primitive& primitive, slvm::Grid& grid) override {
     const slvm::ShaderSet& set = set_;
+    grid.neighbours_end = grid.lattice == slvm::Lattice::kHits &&
+                          shaders_.find(&primitive.attributes())->surface_differentiates_alone;
     if (!set.surface) shade_by_default(grid);
     if (!set.surface && set.atmosphere)
       context_.run(*set.atmosphere, grid);

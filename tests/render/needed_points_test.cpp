@@ -117,6 +117,22 @@ TEST_F(NeededPointsTest, shaders_that_look_at_more_than_a_point_run_at_all) {
   }
 }
 
+TEST_F(NeededPointsTest, single_micropolygons_take_their_neighbours_along) {
+  shaders_["slope"] = "surface slope() { vector d = Du(P); color c = Dv(Cs); Ci = color(abs(xcomp(d)), "
+                      "abs(comp(c, 0)), abs(Du(abs(zcomp(P))))); }";
+  shaders_["mirror"] = "surface mirror() { Ci = trace(P, reflect(normalize(I), normalize(N))) + .5 * Cs; }";
+  shaders_["texturelight"] = "light texturelight() { solar((0,0,1), 0) Cl = 1 + abs(Du(xcomp(Ps))); }";
+  head_ += "PixelSamples 2 1\n";
+  for (const char* look :
+       {"Surface \"slope\" ", "Surface \"mirror\" ", "LightSource \"texturelight\" 9 Surface \"matte\" "}) {
+    const auto [all, needed] = compare("Attribute \"visibility\" \"trace\" 1 " + (look + small_faces("")));
+    EXPECT_LT(needed, all / 3) << look;
+    // What is blended has all four corners, and differences at each.
+    const std::string smooth = "ShadingInterpolation \"smooth\" ";
+    compare(smooth + look + small_faces(""));
+  }
+}
+
 TEST_F(NeededPointsTest, small_things_are_shaded_for_what_their_shaders_say) {
   shaders_["says"] = "surface says() { printf(\"said\\n\"); }";
   // No sample is at the corner of a pixel.
