@@ -60,7 +60,8 @@ namespace {
 
 /// The remainder that is not negative.
 int wrapped(int i, int size) {
-  return (i % size + size) % size;
+  const int rest = i % size;
+  return rest < 0 ? rest + size : rest;
 }
 
 } // namespace
@@ -90,16 +91,18 @@ bool SamplePattern::may_have(Vec2 low, Vec2 high) const {
   };
   const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
   const int first_i = floor(low.x), first_j = floor(low.y);
-  const int first_column = wrapped(first_i, columns);
-  for (int j = first_j, row = wrapped(j, rows); static_cast<float>(j) <= high.y;
-       ++j, row = row + 1 < rows ? row + 1 : 0)
-    for (int i = first_i, column = first_column; static_cast<float>(i) <= high.x;
+  const int first_column = wrapped(first_i, columns), last_i = floor(high.x), last_j = floor(high.y);
+  int found = 0; // branches would go one way as often as the other
+  for (int j = first_j, row = wrapped(j, rows); j <= last_j; ++j, row = row + 1 < rows ? row + 1 : 0) {
+    const auto y0 = static_cast<float>(j);
+    for (int i = first_i, column = first_column; i <= last_i;
          ++i, column = column + 1 < columns ? column + 1 : 0) {
       const auto at = static_cast<size_t>(row * columns + column);
-      const Vec2 p(static_cast<float>(i) + jitter_x_[at], static_cast<float>(j) + jitter_y_[at]);
-      if (p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y) return true;
+      const float x = static_cast<float>(i) + jitter_x_[at], y = y0 + jitter_y_[at];
+      found |= int{x >= low.x} & int{x <= high.x} & int{y >= low.y} & int{y <= high.y};
     }
-  return false;
+  }
+  return found != 0;
 }
 
 void SamplePattern::cover(PixelRect area) {
