@@ -155,6 +155,7 @@ void FrameRenderer::split_all() {
   s.eye_splits = options_.eye_splits;
   s.motion = options_.sample_motion;
   s.may_have_samples = [this](Vec2 low, Vec2 high) { return pattern_.may_have(low, high); };
+  s.must_be_shaded = [this](const Primitive& p) { return shading_.has_effects(p); };
   // Chunks of primitives in parallel, joined in order: task numbers never depend on the threads.
   const std::vector<PrimitiveRange> chunks = chunks_at_once(scene_.primitives);
   std::vector<std::vector<GridTask>> parts(chunks.size());

@@ -145,7 +145,8 @@ void Splitter::visit(const Piece& piece) {
         !(task.raster_max.y >= settings_.raster_min.y) || !(task.raster_min.y <= settings_.raster_max.y))
       return;
     if (settings_.may_have_samples && primitive_.attributes().cull_hidden &&
-        !settings_.may_have_samples(task.raster_min, task.raster_max))
+        !settings_.may_have_samples(task.raster_min, task.raster_max) &&
+        !(settings_.must_be_shaded && settings_.must_be_shaded(primitive_)))
       return;
   }
   Extent e = measure(piece.rect, true);

@@ -34,8 +34,10 @@ struct SplitSettings {
   int grid_size = 256;                     ///< micropolygons in a grid, at most
   int eye_splits = 10;
   bool motion = true; ///< what moves is drawn moving
-  /// Whether samples may lie in a rectangle of the raster; empty: anywhere.
+  /// Whether samples may lie in a rectangle of the raster; empty: anywhere. Pieces without are dropped,
   std::function<bool(Vec2 low, Vec2 high)> may_have_samples = {};
+  /// unless their primitive is to be shaded all the same.
+  std::function<bool(const Primitive&)> must_be_shaded = {};
 };
 
 /// Appends the visible pieces of scene primitive `index`, in an order that depends on nothing but the

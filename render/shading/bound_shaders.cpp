@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 namespace render {
@@ -153,23 +155,39 @@ std::bitset<slvm::kGlobalCount> read_by(const BoundAttributes& bound) {
   return out;
 }
 
-/// No derivatives and no rays, which have footprints, nothing that is kept or said, no point moved.
-bool is_point_by_point(const slvm::Program& p) {
-  constexpr uint32_t kOfMore = slvm::kDerivative | slvm::kRays | slvm::kEffect;
-  return std::none_of(p.imports.begin(), p.imports.end(),
-                      [&](slvm::ShadeopId id) {
-                        return p.plugins.find(id) || (p.plugins.info(id).flags & kOfMore);
-                      }) &&
-         std::none_of(p.slots.begin(), p.slots.end(),
-                      [](const slvm::Slot& s) { return s.stored && !s.parameter && s.name == "P"; });
+/// Whether a program of these shaders calls a function for which f(program, id) is true.
+template <class F> bool calls(const BoundAttributes& bound, F&& f) {
+  auto any = [&](const slvm::Program& p) {
+    return std::any_of(p.imports.begin(), p.imports.end(), [&](slvm::ShadeopId id) { return f(p, id); });
+  };
+  const slvm::ShaderSet& s = bound.shaders;
+  return std::any_of(bound.lights.begin(), bound.lights.end(),
+                     [&](const slvm::Instance* light) { // surfaces may send it other values
+                       return any(light->shader().program());
+                     }) ||
+         std::ranges::any_of(std::array{s.displacement, s.surface, s.atmosphere},
+                             [&](const slvm::Instance* shader) { return shader && any(shader->program()); });
 }
 
+bool has_effects(const BoundAttributes& bound) {
+  return calls(bound, [](const slvm::Program& p, slvm::ShadeopId id) {
+    return p.plugins.find(id) || (p.plugins.info(id).flags & slvm::kEffect);
+  });
+}
+
+/// No derivatives and no rays, which have footprints, no random numbers, which go by the numbers of points,
+/// and no point moved.
 bool is_point_by_point(const BoundAttributes& bound) {
-  auto alone = [](const slvm::Instance* shader) { return !shader || is_point_by_point(shader->program()); };
-  return !bound.shaders.displacement && alone(bound.shaders.surface) && alone(bound.shaders.atmosphere) &&
-         std::all_of(bound.lights.begin(), bound.lights.end(), [](const slvm::Instance* light) {
-           return is_point_by_point(light->shader().program()); // surfaces may send it other values
-         });
+  auto of_more = [](const slvm::Program& p, slvm::ShadeopId id) {
+    const slvm::ShadeopInfo& info = p.plugins.info(id);
+    const bool random = info.kind == slvm::ShadeopKind::kKernel && (info.flags & slvm::kHiddenVarying);
+    return random || (info.flags & (slvm::kDerivative | slvm::kRays));
+  };
+  if (bound.shaders.displacement || bound.has_effects || calls(bound, of_more)) return false;
+  const slvm::Instance* surface = bound.shaders.surface;
+  return !surface || std::ranges::none_of(surface->program().slots, [](const slvm::Slot& s) {
+    return s.stored && !s.parameter && s.name == "P";
+  });
 }
 
 } // namespace
@@ -186,6 +204,7 @@ BoundShaders::Binder::bind(const std::shared_ptr<const Attributes>& a) {
   for (const auto& light : a->lights)
     if (const slvm::Instance* instance = bind(light)) bound->lights.push_back(instance);
   bound->read = read_by(*bound);
+  bound->has_effects = has_effects(*bound);
   bound->point_by_point = is_point_by_point(*bound);
   return bound;
 }

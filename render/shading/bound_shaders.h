@@ -46,6 +46,8 @@ struct BoundAttributes {
   /// Each point of a grid is shaded by itself: what shading gives there does not depend on which others there
   /// are, and shading a point does nothing else.
   bool point_by_point = false;
+  /// Shading does more than give colours: it writes files, prints, or calls plug-ins, which may do anything.
+  bool has_effects = false;
   bool same_as(const BoundAttributes& b) const {
     return shaders.displacement == b.shaders.displacement && shaders.surface == b.shaders.surface &&
            shaders.atmosphere == b.shaders.atmosphere && shaders.interior == b.shaders.interior &&

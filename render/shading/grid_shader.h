@@ -37,6 +37,9 @@ class Shading {
 public:
   virtual ~Shading() = default;
   virtual std::unique_ptr<GridShader> make_grid_shader() = 0;
+  /// Whether shading such a primitive does more than give colours, so that it is not left out for being
+  /// small. Called from any thread.
+  virtual bool has_effects(const Primitive&) const { return false; }
   virtual slvm::StringPool& strings() = 0;
 };
 

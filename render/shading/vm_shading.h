@@ -12,6 +12,9 @@ public:
   VmShading(const slvm::Machine& machine, const BoundShaders& shaders, SceneServices& services)
       : machine_(machine), shaders_(shaders), services_(services) {}
   std::unique_ptr<GridShader> make_grid_shader() override;
+  bool has_effects(const Primitive& primitive) const override {
+    return shaders_.find(&primitive.attributes())->has_effects;
+  }
   slvm::StringPool& strings() override { return machine_.strings(); }
 
 private:

@@ -117,6 +117,26 @@ TEST_F(NeededPointsTest, shaders_that_look_at_more_than_a_point_run_at_all) {
   }
 }
 
+TEST_F(NeededPointsTest, small_things_are_shaded_for_what_their_shaders_say) {
+  shaders_["says"] = "surface says() { printf(\"said\\n\"); }";
+  // No sample is at the corner of a pixel.
+  head_ += "PixelSamples 1 1\nHider \"hidden\" \"jitter\" 0\n";
+  for (const char* point :
+       {"Points \"P\" [0 0 0] \"constantwidth\" .001", "Scale .001 .001 1 Sphere 1 -1 1 360"}) {
+    printed_.clear();
+    EXPECT_EQ(render(std::string(kScene) + "Surface \"says\" " + point + " WorldEnd"), "");
+    EXPECT_THAT(printed_, ::testing::HasSubstr("said")) << point;
+    render(std::string(kScene) + "Surface \"matte\" " + point + " WorldEnd");
+    EXPECT_EQ(shaded_, 0u) << point;
+  }
+}
+
+TEST_F(NeededPointsTest, random_numbers_stay_those_of_the_grid) {
+  shaders_["noisy"] = "surface noisy() { Ci = random(); }";
+  const auto [all, needed] = compare("Surface \"noisy\" ShadingRate .2 Disk 0 1 360");
+  EXPECT_EQ(needed, all);
+}
+
 TEST_F(NeededPointsTest, a_lens_or_motion_may_show_any) {
   const std::string ball = "Surface \"matte\" Sides 1 Sphere 1 -1 1 360";
   head_ += "Shutter 0 1\n";

@@ -140,7 +140,7 @@ TEST(Trace, shaders_run_only_where_something_of_theirs_is_asked_for) {
   RayScene s(world("Surface \"says\" Translate 0 0 4 Polygon \"P\" [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"),
              {{"says", "surface says() { printf(\"ran\\n\"); Ci = 1; }"}});
   const TestRay ray{{0.1f, 0.2f, 0}};
-  EXPECT_EQ(s.distance(ray), 4);
+  EXPECT_FLOAT_EQ(s.distance(ray), 4);
   EXPECT_THAT(s.value(ray, "primitive:N", Type::kNormal), ::testing::SizeIs(3));
   slvm::RayOptions unshaded, plain;
   unshaded.shades = false;
