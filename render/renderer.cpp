@@ -56,6 +56,7 @@ struct Renderer::Impl {
   void end_plugins();
   bool load_mask(const Options& options, DepthMask& mask);
   void make_what_rays_see(Scene& scene);
+  void report_rays(const RayTracer& rays);
   void flush() {
     if (settings.flush_messages) settings.flush_messages();
   }
@@ -160,6 +161,7 @@ void Renderer::Impl::emit_photons(Scene& frame) {
     for (const std::string& problem : tracer.write())
       diagnostics.error({}, problem);
   });
+  report_rays(all.rays);
   write_points(all.baked);
   report_runtime_messages();
   flush();
@@ -231,6 +233,7 @@ void Renderer::Impl::render(Scene& frame) {
     if (std::string why = preview->finish(); !why.empty())
       diagnostics.error({}, fmt::format("cannot write the preview \"{}\": {}", settings.preview, why));
   report_runtime_messages();
+  report_rays(all.rays);
   write_points(all.baked);
   report_replaced(all.textures);
   for (const std::string& problem : all.photons.problems())
@@ -259,6 +262,10 @@ void Renderer::Impl::render(Scene& frame) {
     settings.statistics(statistics);
   }
   flush();
+}
+
+void Renderer::Impl::report_rays(const RayTracer& rays) {
+  if (std::string why = rays.problem(); !why.empty()) diagnostics.error({}, why);
 }
 
 /// Rays come from everywhere: procedurals they can hit are made before the first one is shot.

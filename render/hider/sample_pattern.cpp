@@ -60,7 +60,8 @@ namespace {
 
 /// The remainder that is not negative.
 int wrapped(int i, int size) {
-  return (i % size + size) % size;
+  const int rest = i % size;
+  return rest < 0 ? rest + size : rest;
 }
 
 } // namespace
@@ -80,18 +81,28 @@ void SamplePattern::jitter(std::span<float> x, std::span<float> y, int column, i
 bool SamplePattern::may_have(Vec2 low, Vec2 high) const {
   constexpr float kSmall = 4, kSlack = 1e-3f; // samples; pixels
   const Vec2 density(size_.xsamples, size_.ysamples);
-  low -= kSlack;
-  high += kSlack;
-  const Vec2 from = glm::floor(low * density), to = glm::floor(high * density);
-  if (!(to.x - from.x < kSmall && to.y - from.y < kSmall)) return true;
+  low = (low - kSlack) * density;
+  high = (high + kSlack) * density;
+  if (!(high.x - low.x < kSmall && high.y - low.y < kSmall)) return true;
+  // std::floor is a call on processors without SSE 4.1.
+  auto floor = [](float v) {
+    const int cut = static_cast<int>(v);
+    return cut - (v < static_cast<float>(cut));
+  };
   const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
-  for (int j = static_cast<int>(from.y); j <= static_cast<int>(to.y); ++j)
-    for (int i = static_cast<int>(from.x); i <= static_cast<int>(to.x); ++i) {
-      const auto at = static_cast<size_t>(wrapped(j, rows) * columns + wrapped(i, columns));
-      const Vec2 p = (Vec2(i, j) + Vec2(jitter_x_[at], jitter_y_[at])) / density;
-      if (p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y) return true;
+  const int first_i = floor(low.x), first_j = floor(low.y);
+  const int first_column = wrapped(first_i, columns), last_i = floor(high.x), last_j = floor(high.y);
+  int found = 0; // branches would go one way as often as the other
+  for (int j = first_j, row = wrapped(j, rows); j <= last_j; ++j, row = row + 1 < rows ? row + 1 : 0) {
+    const auto y0 = static_cast<float>(j);
+    for (int i = first_i, column = first_column; i <= last_i;
+         ++i, column = column + 1 < columns ? column + 1 : 0) {
+      const auto at = static_cast<size_t>(row * columns + column);
+      const float x = static_cast<float>(i) + jitter_x_[at], y = y0 + jitter_y_[at];
+      found |= int{x >= low.x} & int{x <= high.x} & int{y >= low.y} & int{y <= high.y};
     }
-  return false;
+  }
+  return found != 0;
 }
 
 void SamplePattern::cover(PixelRect area) {

@@ -88,11 +88,14 @@ std::unique_ptr<ShadedGrid> TaskShader::shade_needed(const GridTask& task, uint6
   return out;
 }
 
-/// Whether many micropolygons can lie between samples.
+/// Whether so many micropolygons can lie between samples that it is worth while to look for them: more where
+/// shading is cheap, as it is without an atmosphere to march through.
 bool TaskShader::is_small(const GridTask& task) const {
+  if (task.count() > 1) return true;
   const Options& o = settings_.options;
-  return task.count() > 1 ||
-         task.step * task.step * static_cast<float>(o.xsamples) * static_cast<float>(o.ysamples) < 2;
+  const float samples =
+      task.step * task.step * static_cast<float>(o.xsamples) * static_cast<float>(o.ysamples);
+  return samples < (pieces_.front().attributes().atmosphere ? 2.0f : 0.75f);
 }
 
 /// Whether it can be worth while, and right, to leave out points.

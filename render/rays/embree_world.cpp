@@ -4,17 +4,14 @@
 // and items can be dropped and made again while the world stays as it is.
 #include "render/rays/embree_world.h"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "render/rays/embree_library.h"
 
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <mutex>
 #include <optional>
 #include <tuple>
 
@@ -29,21 +26,21 @@ void init_context(QueryContext& c) {
 }
 constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 void allow_filter(RTCGeometry g) {
-  rtcSetGeometryEnableFilterFunctionFromArguments(g, true);
+  embree().rtcSetGeometryEnableFilterFunctionFromArguments(g, true);
 }
 void intersect(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRayHit& ray) {
   RTCIntersectArguments a;
   rtcInitIntersectArguments(&a);
   a.context = &c;
   a.filter = filter;
-  rtcIntersect1(scene, &ray, &a);
+  embree().rtcIntersect1(scene, &ray, &a);
 }
 void occluded(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRay& ray) {
   RTCOccludedArguments a;
   rtcInitOccludedArguments(&a);
   a.context = &c;
   a.filter = filter;
-  rtcOccluded1(scene, &ray, &a);
+  embree().rtcOccluded1(scene, &ray, &a);
 }
 #else
 using QueryContext = RTCIntersectContext;
@@ -54,11 +51,11 @@ constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 void allow_filter(RTCGeometry) {}
 void intersect(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRayHit& ray) {
   c.filter = filter;
-  rtcIntersect1(scene, &c, &ray);
+  embree().rtcIntersect1(scene, &c, &ray);
 }
 void occluded(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRay& ray) {
   c.filter = filter;
-  rtcOccluded1(scene, &c, &ray);
+  embree().rtcOccluded1(scene, &c, &ray);
 }
 #endif
 
@@ -91,7 +88,7 @@ public:
     for (const auto& [a, b, c, d] : mesh.faces)
       skews_.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
   }
-  ~EmbreeFaces() override { rtcReleaseScene(scene); }
+  ~EmbreeFaces() override { embree().rtcReleaseScene(scene); }
   RTCScene scene;
 
   /// One step of Newton's method.
@@ -116,7 +113,7 @@ RTCScene faces_of(const FaceScene* faces) {
 /// Builds run on all processors; while this thread waits for them it must not take up other work of the
 /// renderer, which could wait for what is being built here.
 void commit(RTCScene scene) {
-  tbb::this_task_arena::isolate([&] { rtcCommitScene(scene); });
+  tbb::this_task_arena::isolate([&] { embree().rtcCommitScene(scene); });
 }
 
 /// Hits of two faces of a surface that differ by less, relative to the distance, are one at the edge between
@@ -126,48 +123,63 @@ constexpr float kSamePlace = 2e-6f;
 } // namespace
 
 struct RayDevice::Impl {
-  RTCDevice device = rtcNewDevice(nullptr);
+  ~Impl() {
+    if (device) embree().rtcReleaseDevice(device);
+  }
+  /// Made at the first call: it takes a thirtieth of the time of a small picture, even when there is nothing
+  /// for rays in it. Null: there is a problem.
+  RTCDevice get() {
+    std::call_once(made, [this] {
+      problem = embree().problem;
+      if (!problem.empty()) return;
+      device = embree().rtcNewDevice(nullptr);
+      auto count = [](void* user, ssize_t size, bool) {
+        static_cast<Impl*>(user)->bytes.fetch_add(size, std::memory_order_relaxed);
+        return true;
+      };
+      embree().rtcSetDeviceMemoryMonitorFunction(device, count, this);
+    });
+    return device;
+  }
+
+  std::once_flag made;
+  RTCDevice device = nullptr;
+  std::string problem;
   std::atomic<int64_t> bytes{0};
 };
 
-RayDevice::RayDevice() : impl_(std::make_unique<Impl>()) {
-  rtcSetDeviceMemoryMonitorFunction(
-      impl_->device,
-      [](void* user, ssize_t bytes, bool) {
-        static_cast<Impl*>(user)->bytes.fetch_add(bytes, std::memory_order_relaxed);
-        return true;
-      },
-      impl_.get());
-}
-RayDevice::~RayDevice() {
-  rtcReleaseDevice(impl_->device);
+RayDevice::RayDevice() : impl_(std::make_unique<Impl>()) {}
+RayDevice::~RayDevice() = default;
+const std::string& RayDevice::problem() const {
+  return impl_->problem;
 }
 size_t RayDevice::bytes() const {
   return static_cast<size_t>(std::max<int64_t>(impl_->bytes, 0));
 }
 
 std::unique_ptr<const FaceScene> RayDevice::build(const QuadMesh& mesh) const {
-  if (mesh.faces.empty()) return nullptr;
-  RTCScene scene = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilterFlag));
-  RTCGeometry g = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_QUAD);
+  RTCDevice device = mesh.faces.empty() ? nullptr : impl_->get();
+  if (!device) return nullptr;
+  RTCScene scene = embree().rtcNewScene(device);
+  embree().rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilterFlag));
+  RTCGeometry g = embree().rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
   allow_filter(g);
   size_t points = mesh.points.size() / mesh.times;
-  rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(mesh.times));
+  embree().rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(mesh.times));
   for (size_t t = 0; t < mesh.times; ++t) {
-    auto* to = static_cast<float*>(rtcSetNewGeometryBuffer(
+    auto* to = static_cast<float*>(embree().rtcSetNewGeometryBuffer(
         g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(t), RTC_FORMAT_FLOAT3, 3 * sizeof(float), points));
     for (size_t i = 0; i < points; ++i)
       for (int c = 0; c < 3; ++c)
         *to++ = mesh.points[t * points + i][c];
   }
-  auto* index = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
-                                                               4 * sizeof(uint32_t), mesh.faces.size()));
+  auto* index = static_cast<uint32_t*>(embree().rtcSetNewGeometryBuffer(
+      g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(uint32_t), mesh.faces.size()));
   for (const auto& face : mesh.faces)
     index = std::copy(face.begin(), face.end(), index);
-  rtcCommitGeometry(g);
-  rtcAttachGeometry(scene, g);
-  rtcReleaseGeometry(g);
+  embree().rtcCommitGeometry(g);
+  embree().rtcAttachGeometry(scene, g);
+  embree().rtcReleaseGeometry(g);
   commit(scene);
   return std::make_unique<EmbreeFaces>(scene, mesh);
 }
@@ -175,7 +187,7 @@ std::unique_ptr<const FaceScene> RayDevice::build(const QuadMesh& mesh) const {
 struct RayWorld::Impl {
   std::vector<WorldItem> items;
   ItemFaces& source;
-  RTCScene top;
+  RTCScene top; ///< null: nothing to hit
 
   const FaceScene* faces(uint32_t item) const { return source.faces(item); }
 };
@@ -382,25 +394,24 @@ bool is_usable(const RaySegment& ray) {
 
 RayWorld::RayWorld(const RayDevice& device, std::vector<WorldItem> items, ItemFaces& faces)
     : impl_(new Impl{std::move(items), faces, nullptr}) {
-  RTCDevice d = device.impl().device;
-  impl_->top = rtcNewScene(d);
-  rtcSetSceneFlags(impl_->top, RTC_SCENE_FLAG_ROBUST);
-  if (!impl_->items.empty()) {
-    RTCGeometry g = rtcNewGeometry(d, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(g, static_cast<unsigned>(impl_->items.size()));
-    rtcSetGeometryUserData(g, impl_.get());
-    rtcSetGeometryBoundsFunction(g, bound_item, nullptr);
-    rtcSetGeometryIntersectFunction(g, intersect_item);
-    rtcSetGeometryOccludedFunction(g, occlude_item);
-    rtcCommitGeometry(g);
-    rtcAttachGeometry(impl_->top, g);
-    rtcReleaseGeometry(g);
-  }
+  RTCDevice d = impl_->items.empty() ? nullptr : device.impl().get();
+  if (!d) return;
+  impl_->top = embree().rtcNewScene(d);
+  embree().rtcSetSceneFlags(impl_->top, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry g = embree().rtcNewGeometry(d, RTC_GEOMETRY_TYPE_USER);
+  embree().rtcSetGeometryUserPrimitiveCount(g, static_cast<unsigned>(impl_->items.size()));
+  embree().rtcSetGeometryUserData(g, impl_.get());
+  embree().rtcSetGeometryBoundsFunction(g, bound_item, nullptr);
+  embree().rtcSetGeometryIntersectFunction(g, intersect_item);
+  embree().rtcSetGeometryOccludedFunction(g, occlude_item);
+  embree().rtcCommitGeometry(g);
+  embree().rtcAttachGeometry(impl_->top, g);
+  embree().rtcReleaseGeometry(g);
   commit(impl_->top);
 }
 
 RayWorld::~RayWorld() {
-  rtcReleaseScene(impl_->top);
+  if (impl_->top) embree().rtcReleaseScene(impl_->top);
 }
 
 namespace {
@@ -426,7 +437,7 @@ void take_first(RTCScene top, const RayRule& rule, const ItemFaces& faces, RaySe
 
 bool RayWorld::nearest(const RayRule& rule, const RaySegment& segment, const slvm::RayCursor* behind,
                        RayHit& hit) const {
-  if (!is_usable(segment)) return false;
+  if (!impl_->top || !is_usable(segment)) return false;
   Query q(rule, impl_->source);
   q.behind = behind && behind->distance > -kInfinity ? behind : nullptr;
   RTCRayHit ray{};
@@ -440,7 +451,7 @@ bool RayWorld::nearest(const RayRule& rule, const RaySegment& segment, const slv
 }
 
 bool RayWorld::any(const RayRule& rule, const RaySegment& segment) const {
-  if (!is_usable(segment)) return false;
+  if (!impl_->top || !is_usable(segment)) return false;
   Query q(rule, impl_->source);
   RTCRay ray{};
   set_ray(ray, segment);
@@ -451,7 +462,7 @@ bool RayWorld::any(const RayRule& rule, const RaySegment& segment) const {
 bool RayWorld::all(const RayRule& rule, const RaySegment& segment, const uint8_t* solid, size_t most,
                    std::vector<RayHit>& hits) const {
   hits.clear();
-  if (!is_usable(segment)) return false;
+  if (!impl_->top || !is_usable(segment)) return false;
   Query q(rule, impl_->source);
   q.solid = solid;
   q.list = &hits;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace render {
@@ -38,12 +39,14 @@ public:
   RayDevice(const RayDevice&) = delete;
   RayDevice& operator=(const RayDevice&) = delete;
 
+  /// Why rays hit nothing that should be hit; empty: they do.
+  const std::string& problem() const;
   std::unique_ptr<const FaceScene> build(const QuadMesh& mesh) const;
   /// Memory of all scenes that are alive, hierarchies included.
   size_t bytes() const;
 
   struct Impl;
-  const Impl& impl() const { return *impl_; }
+  Impl& impl() const { return *impl_; }
 
 private:
   std::unique_ptr<Impl> impl_;

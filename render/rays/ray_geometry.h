@@ -85,6 +85,8 @@ public:
   ~RayGeometry() override;
 
   const RayWorld& world() const { return *world_; }
+  /// Why rays hit nothing that should be hit; empty: they do.
+  const std::string& problem() const { return device_.problem(); }
   const RayTraits& traits(uint32_t item) const { return items_[item]->traits; }
   size_t items() const { return items_.size(); }
   /// The primitive that a hit is on.

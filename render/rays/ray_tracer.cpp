@@ -185,6 +185,10 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   hits_.give_back(std::move(hits));
 }
 
+std::string RayTracer::problem() const {
+  return geometry_ ? geometry_->problem() : std::string();
+}
+
 RayUsage RayTracer::usage() const {
   RayUsage out{rays_, shadow_rays_, hemisphere_rays_, hemispheres_, hits_.usage().grids, hits_.usage().points,
                {}};

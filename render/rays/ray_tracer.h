@@ -40,6 +40,8 @@ public:
   std::string hemisphere(const slvm::ShadingState& state, const slvm::HemisphereQuery&) override;
   std::string sample_environment(const slvm::ShadingState& state, const slvm::EnvironmentSamples&) override;
 
+  /// Why rays hit nothing that should be hit; empty: they do.
+  std::string problem() const;
   RayUsage usage() const;
 
 private:

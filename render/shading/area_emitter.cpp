@@ -32,6 +32,7 @@ std::vector<float> even(int cells) {
 
 /// Where the integral of a density that goes from `a` to `b` reaches `part` of the whole.
 float linear_place(float a, float b, float part) {
+  if (a == b) return part; // on most surfaces, in one of two directions
   const float wanted = part * (a + b) / 2;
   const float root = std::sqrt(std::max(a * a + 2 * (b - a) * wanted, 0.0f));
   return a + root > 0 ? std::min(2 * wanted / (a + root), 1.0f) : part;
@@ -75,7 +76,8 @@ AreaEmitter::AreaEmitter(PrimitiveList surface, uint32_t samples, const DiceCont
       const float sides =
           lattice.integral[lattice.at(lattice.nu, j)] + lattice.integral[lattice.at(lattice.nu, j + 1)];
       if (!(sides > 0) || !std::isfinite(sides)) continue;
-      rows_.push_back({static_cast<uint32_t>(p), j});
+      rows_.push_back({static_cast<uint32_t>(p), j, 1 / static_cast<float>(lattice.nu),
+                       1 / static_cast<float>(lattice.nv)});
       row_ends_.push_back(area += static_cast<double>(sides) / 2 / lattice.nv);
     }
   }
@@ -174,8 +176,8 @@ AreaEmitter::Spot AreaEmitter::spot(float x, float y) const {
   const float in_cell = to > from ? std::clamp((target - from) / (to - from), 0.0f, 1.0f) : 0.5f;
   const float *a = &lattice.area[lattice.at(i, j)], *b = &lattice.area[lattice.at(i, j + 1)];
   const float along = linear_place(between(a[0], b[0]), between(a[1], b[1]), in_cell);
-  return {rows_[r].primitive, 0, (static_cast<float>(i) + along) / static_cast<float>(lattice.nu),
-          (static_cast<float>(j) + weight) / static_cast<float>(lattice.nv)};
+  return {rows_[r].primitive, 0, (static_cast<float>(i) + along) * rows_[r].du,
+          (static_cast<float>(j) + weight) * rows_[r].dv};
 }
 
 /// A grid of points of primitives that can be diced together, those of one side by side.
@@ -193,8 +195,12 @@ void AreaEmitter::fill(std::span<const Spot> spots, const ReadVariables& read, s
     const UvPoints at{std::span(u).subspan(first, end - first), std::span(v).subspan(first, end - first),
                       true};
     const Primitive& primitive = primitives_[spots[first].primitive];
-    primitive.geometry->evaluate(at, scratch);
-    lattice.append(scratch);
+    if (at.u.size() == spots.size()) {
+      primitive.geometry->evaluate(at, lattice);
+    } else {
+      primitive.geometry->evaluate(at, scratch);
+      lattice.append(scratch);
+    }
     parts.push_back({&primitive, at, first});
   }
   part.reset(static_cast<int>(spots.size()), 1);
@@ -208,9 +214,18 @@ namespace {
 /// Point k of the one to the point of the other that `spots` says; step 0 has the same for all.
 template <class Spots> void scatter(const slvm::Planes& from, const Spots& spots, float* to, size_t pitch) {
   const size_t planes = static_cast<size_t>(slvm::components(from.type)) * std::max(from.elements, 1u);
-  for (size_t c = 0; c < planes; ++c)
-    for (size_t k = 0; k < spots.size(); ++k)
-      to[c * pitch + spots[k].point] = from.data[c * from.pitch + (from.step ? k : 0)];
+  const auto &first = spots.front(), &last = spots.back();
+  // Those of one primitive ascend.
+  const bool run = first.primitive == last.primitive && last.point - first.point + 1 == spots.size();
+  for (size_t c = 0; c < planes; ++c) {
+    const float* values = from.data + c * from.pitch;
+    float* out = to + c * pitch;
+    if (run && from.step)
+      std::copy_n(values, spots.size(), out + first.point);
+    else
+      for (size_t k = 0; k < spots.size(); ++k)
+        out[spots[k].point] = values[from.step ? k : 0];
+  }
 }
 
 } // namespace

@@ -41,6 +41,7 @@ private:
   struct Row {
     uint32_t primitive;
     int row;
+    float du, dv; ///< of a cell
   };
   /// A point of the surface, and the point of a grid it is for.
   struct Spot {

@@ -5,6 +5,7 @@
 #include "render/setup/compiling_loader.h"
 #include "render/statistics.h"
 #include "render/tools/arguments.h"
+#include "render/tools/heap.h"
 #include "slvm/support/whole_file.h"
 
 #include <fmt/format.h>
@@ -170,6 +171,7 @@ int run(const Arguments& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
+  render::tools::make_roomy_heap();
   Arguments arguments = render::tools::parse_arguments(argc, argv);
   if (arguments.exit_status) return *arguments.exit_status;
   try {

@@ -55,10 +55,15 @@ void place_on_emitter(GridState& state, LitGrid& g) {
     g.on_emitter->reset(lit.nu(), lit.nv());
   const SobolSample sample(g.sample.sample);
   std::vector<float> x(lit.points()), y(lit.points());
-  for (size_t i = 0; i < x.size(); ++i) {
-    const uint32_t seed = point_seed(lit.id, g.sample.light, static_cast<uint32_t>(i % lit.samples()));
+  const size_t samples = lit.samples();
+  for (size_t i = 0; i < samples; ++i) {
+    const uint32_t seed = point_seed(lit.id, g.sample.light, static_cast<uint32_t>(i));
     x[i] = scrambled(sample.bits[0], scramble_seed(seed, SampleUse::kTurn));
     y[i] = scrambled(sample.bits[1], scramble_seed(seed, SampleUse::kRadius));
+  }
+  for (size_t i = samples; i < x.size(); ++i) {
+    x[i] = x[i - samples];
+    y[i] = y[i - samples];
   }
   g.light->emitter()->place(x, y, g.run->program, *g.on_emitter);
   g.run->on_emitter = g.on_emitter.get();
