@@ -70,7 +70,7 @@ TEST_F(NeededPointsTest, faces_smaller_than_pixels_are_shaded_where_samples_are)
 
 TEST_F(NeededPointsTest, far_sides_and_hair) {
   const auto [all, needed] =
-      compare("Surface \"matte\" ShadingRate .2 Sides 1 Rotate 40 1 1 0 Torus 1.2 .5 0 360 360");
+      compare("Surface \"matte\" ShadingRate .1 Sides 1 Rotate 40 1 1 0 Torus 1.2 .5 0 360 360");
   EXPECT_LT(needed, all * 3 / 4);
   std::string hair = "Surface \"matte\" Curves \"linear\" [";
   std::string points;
