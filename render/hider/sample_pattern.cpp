@@ -79,11 +79,13 @@ void SamplePattern::jitter(std::span<float> x, std::span<float> y, int column, i
 }
 
 bool SamplePattern::may_have(Vec2 low, Vec2 high) const {
-  constexpr float kSmall = 4, kSlack = 1e-3f; // samples; pixels
+  constexpr float kSmall = 4, kFar = 1 << 24, kSlack = 1e-3f; // samples, samples, pixels
   const Vec2 density(size_.xsamples, size_.ysamples);
   low = (low - kSlack) * density;
   high = (high + kSlack) * density;
   if (!(high.x - low.x < kSmall && high.y - low.y < kSmall)) return true;
+  // What is far outside, as points near the eye are, has no whole numbers.
+  if (!(std::min(low.x, low.y) > -kFar && std::max(high.x, high.y) < kFar)) return true;
   // std::floor is a call on processors without SSE 4.1.
   auto floor = [](float v) {
     const int cut = static_cast<int>(v);

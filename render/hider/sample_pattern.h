@@ -36,7 +36,7 @@ public:
   void jitter(std::span<float> x, std::span<float> y, int column, int row) const;
 
   /// Whether any sample of the frame lies in a rectangle of the raster, give or take rounding. Of one that is
-  /// not small it is taken for granted.
+  /// not small, or far from all pictures, it is taken for granted.
   bool may_have(Vec2 low, Vec2 high) const;
 
   int width() const { return width_; } ///< samples in a row

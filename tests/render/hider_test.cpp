@@ -298,7 +298,13 @@ TEST(SamplePattern, knows_small_places_without_samples) {
     }
     EXPECT_GT(empty, 200);
   }
-  EXPECT_TRUE(SamplePattern({1, 1}, false, false).may_have({-1e9f, 0}, {1e9f, 0}));
+  const SamplePattern pattern({1, 1}, false, false);
+  EXPECT_TRUE(pattern.may_have({-1e9f, 0}, {1e9f, 0}));
+  for (float far : {1e9f, -1e9f, 3e10f, -3e10f, 1e38f, -1e38f, std::nanf("")})
+    for (float near : {0.0f, far}) {
+      EXPECT_TRUE(pattern.may_have({far, near}, {far, near}));
+      EXPECT_TRUE(pattern.may_have({near, far}, {near, far}));
+    }
 }
 
 TEST(Hider, an_aov_shows_the_nearest_surface) {
