@@ -8,7 +8,6 @@
 #include "render/texture/wide_block.h"
 #include "slvm/wide/targets.h"
 
-
 HWY_BEFORE_NAMESPACE();
 namespace render {
 namespace HWY_NAMESPACE {
@@ -54,8 +53,7 @@ HWY_INLINE V part_hidden(const ShadowMap& map, const ShadowRegions& r, size_t i)
   const V zero = hn::Zero(kWide), one = number(1.0f), middle = number(0.5f);
   const V sblur = hn::Load(kWide, r.sblur + i), tblur = hn::Load(kWide, r.tblur + i),
           bias = hn::Load(kWide, r.bias + i);
-  const V columns = number(static_cast<float>(map.width)),
-          rows = number(static_cast<float>(map.height));
+  const V columns = number(static_cast<float>(map.width)), rows = number(static_cast<float>(map.height));
   const auto last_column = hn::Set(kWideInt, map.width - 1), last_row = hn::Set(kWideInt, map.height - 1),
              width = hn::Set(kWideInt, map.width);
   const bool sharp = hn::AllTrue(kWide, hn::And(hn::Eq(sblur, zero), hn::Eq(tblur, zero)));

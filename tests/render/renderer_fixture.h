@@ -33,8 +33,8 @@ protected:
     Renderer renderer(sources, diagnostics, settings_);
     std::string file = (directory_ / "out.exr").string();
     renderer.read_text("scene.rib",
-                       fmt::format("Format {0} {0} 1\n{1}Display \"{2}\" \"openexr\" \"{3}\"\n{4}", size_, head_,
-                                   file, mode, rib));
+                       fmt::format("Format {0} {0} 1\n{1}Display \"{2}\" \"openexr\" \"{3}\"\n{4}", size_,
+                                   head_, file, mode, rib));
     renderer.finish();
     read(file);
     return format_diagnostics(diagnostics, sources);

@@ -33,8 +33,7 @@ TEST(Overload, the_result_follows_the_context) {
 }
 
 TEST(Overload, the_other_operand_is_context_too) {
-  expect_row("Ci = Cs * texture(name);",
-             "texture color(string name, uniform float channel, @texture)");
+  expect_row("Ci = Cs * texture(name);", "texture color(string name, uniform float channel, @texture)");
   expect_row("P += N * noise(P);", "noise float(point p)");
   expect_row("P += noise(P);", "noise vector(point p)");
 }
@@ -51,8 +50,7 @@ TEST(Overload, floats_do_not_hide_the_context) {
     expect_row(std::string("Ci = float (") + value + ");", "noise float(point p)");
   }
   expect_row("Ci = trace(P, N) + .1;", "trace color(point P, vector R, @trace)");
-  expect_row("Ci = 1 - texture(name);",
-             "texture color(string name, uniform float channel, @texture)");
+  expect_row("Ci = 1 - texture(name);", "texture color(string name, uniform float channel, @texture)");
   expect_row("Ci *= 1 - shadow(name, P);",
              "shadow color(string name, uniform float channel, point P, @shadow)");
   // Between floats alone there is nothing to choose.
