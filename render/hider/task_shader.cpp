@@ -25,7 +25,8 @@ std::unique_ptr<const ShadedGrid> TaskShader::shade(const TaskBatch& batch, uint
   const PrimitiveState& state = *pieces_.front().state;
   read_.predefined = shader_->reads(pieces_.front()) | shown_;
   const uint64_t id = batch.id ^ index;
-  auto out = may_leave_out(task) ? shade_needed(task, id) : shade_all(task, id);
+  const PointNeeds needs = shader_->needs(pieces_.front());
+  auto out = may_leave_out(task, needs) ? shade_needed(task, id, needs) : shade_all(task, id);
   if (!out) return nullptr;
   if (state.solid) out->cut_near = batch.solids.at(state.solid.get()).cut_near[state.solid_primitive];
   report_.variables |= out->variables;
@@ -66,7 +67,7 @@ std::unique_ptr<ShadedGrid> TaskShader::shade_all(const GridTask& task, uint64_t
   return out;
 }
 
-std::unique_ptr<ShadedGrid> TaskShader::shade_needed(const GridTask& task, uint64_t id) {
+std::unique_ptr<ShadedGrid> TaskShader::shade_needed(const GridTask& task, uint64_t id, PointNeeds needs) {
   auto started = std::chrono::steady_clock::now();
   dice_positions(pieces_, task, grid_);
   const std::optional<GridOutline> outline = outline_of(task);
@@ -76,8 +77,7 @@ std::unique_ptr<ShadedGrid> TaskShader::shade_needed(const GridTask& task, uint6
   const Primitive& primitive = pieces_.front();
   const bool few = needed_.few(grid_.points());
   if (few)
-    dice_some(pieces_, task, needed_.points(), shader_->needs(primitive) == PointNeeds::kNeighbours, id,
-              context_, read_, grid_);
+    dice_some(pieces_, task, needed_.points(), needs == PointNeeds::kNeighbours, id, context_, read_, grid_);
   else
     dice(pieces_, task, id, context_, read_, grid_);
   shader_->displace(primitive, grid_); // there is nothing to displace: a beginning
@@ -99,11 +99,10 @@ bool TaskShader::is_small(const GridTask& task) const {
 }
 
 /// Whether it can be worth while, and right, to leave out points.
-bool TaskShader::may_leave_out(const GridTask& task) const {
+bool TaskShader::may_leave_out(const GridTask& task, PointNeeds needs) const {
   const Primitive& primitive = pieces_.front();
   const Attributes& a = primitive.attributes();
   if (!a.cull_hidden || settings_.camera.has_lens() || !motion_times(primitive).empty()) return false;
-  const PointNeeds needs = shader_->needs(primitive);
   // The other corners of a single micropolygon are all the neighbours that its own one has.
   if (needs == PointNeeds::kNeighbours) return !a.smooth_shading && task.nu == 2 && task.nv == 2;
   const bool few_corners = !a.smooth_shading && (task.nu - 1) * (task.nv - 1) * 5 < task.nu * task.nv * 4;

@@ -39,9 +39,9 @@ public:
 
 private:
   std::unique_ptr<ShadedGrid> shade_all(const GridTask& task, uint64_t id);
-  std::unique_ptr<ShadedGrid> shade_needed(const GridTask& task, uint64_t id);
+  std::unique_ptr<ShadedGrid> shade_needed(const GridTask& task, uint64_t id, PointNeeds needs);
   bool is_small(const GridTask& task) const;
-  bool may_leave_out(const GridTask& task) const;
+  bool may_leave_out(const GridTask& task, PointNeeds needs) const;
   std::unique_ptr<ShadedGrid> place(const GridOutline* outline) const;
   std::optional<GridOutline> outline_of(const GridTask& task) const;
   void count(const GridTask& task, std::chrono::steady_clock::time_point started);

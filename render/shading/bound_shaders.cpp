@@ -159,13 +159,11 @@ using Called = bool (*)(const slvm::Program&, slvm::ShadeopId);
 
 /// Whether it calls a function of which that is true.
 bool calls(const slvm::Instance* shader, Called what) {
+  if (!shader) return false;
   // What values made of the program; not of lights, to which surfaces may send others.
-  const bool light = shader && shader->shader().kind() == slvm::ShaderKind::kLight;
-  return shader &&
-         std::ranges::any_of((light ? shader->shader().program() : shader->program()).imports,
-                             [&](slvm::ShadeopId id) {
-                               return what(light ? shader->shader().program() : shader->program(), id);
-                             });
+  const bool light = shader->shader().kind() == slvm::ShaderKind::kLight;
+  const slvm::Program& p = light ? shader->shader().program() : shader->program();
+  return std::ranges::any_of(p.imports, [&](slvm::ShadeopId id) { return what(p, id); });
 }
 
 bool lights_or_air_call(const BoundAttributes& bound, Called what) {

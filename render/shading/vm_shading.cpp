@@ -23,16 +23,15 @@ public:
 
   bool displace(const Primitive& primitive, slvm::Grid& grid) override {
     // Once for each grid: a procedural made meanwhile may have the same shaders bound anew.
-    set_ = shaders_.find(&primitive.attributes())->shaders;
-    if (!set_.displacement) return false;
-    context_.displace(set_, grid);
+    bound_ = shaders_.find(&primitive.attributes());
+    if (!bound_->shaders.displacement) return false;
+    context_.displace(bound_->shaders, grid);
     return true;
   }
 
-  void shade(const Primitive& primitive, slvm::Grid& grid) override {
-    const slvm::ShaderSet& set = set_;
-    grid.neighbours_end = grid.lattice == slvm::Lattice::kHits &&
-                          shaders_.find(&primitive.attributes())->surface_differentiates_alone;
+  void shade(const Primitive&, slvm::Grid& grid) override {
+    const slvm::ShaderSet& set = bound_->shaders;
+    grid.neighbours_end = grid.lattice == slvm::Lattice::kHits && bound_->surface_differentiates_alone;
     if (!set.surface) shade_by_default(grid);
     if (!set.surface && set.atmosphere)
       context_.run(*set.atmosphere, grid);
@@ -41,7 +40,8 @@ public:
   }
 
   const slvm::Planes* output(const Primitive&, const slvm::Grid& grid, std::string_view name) override {
-    for (const slvm::Instance* instance : {set_.surface, set_.displacement, set_.atmosphere})
+    const slvm::ShaderSet& set = bound_->shaders;
+    for (const slvm::Instance* instance : {set.surface, set.displacement, set.atmosphere})
       if (instance)
         if (const slvm::Planes* planes = context_.output(*instance, name)) return planes;
     slvm::Global g = slvm::find_global(name);
@@ -55,7 +55,7 @@ public:
 private:
   const BoundShaders& shaders_;
   slvm::ShadingContext context_;
-  slvm::ShaderSet set_; ///< of the grid being shaded
+  const BoundAttributes* bound_ = nullptr; ///< of the grid being shaded
 };
 
 } // namespace
