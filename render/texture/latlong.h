@@ -13,7 +13,8 @@ struct Directions {
   alignas(64) Lanes centre[3] = {}, along_u[3] = {}, along_v[3] = {};
 };
 
-/// s = longitude / 2 PI, t = (PI / 2 - latitude) / PI. The blur stays as it is.
+/// s = longitude / 2 PI, t = (PI / 2 - latitude) / PI. The blur along s, as it was at the equator, becomes
+/// that of the same angle at the latitude: at the poles, of all longitudes.
 void find_latlong(const Directions& directions, TextureRegions& out);
 
 } // namespace render

@@ -30,12 +30,12 @@ HWY_INLINE auto is_finite(V x) {
 }
 
 /// How many places of a level have the spread of the longest axis, and how far apart.
-HWY_INLINE void spread_places(V longest, I level, float most, size_t i, TexturePlaces& out, size_t k) {
+HWY_INLINE void spread_places(V longest, I level, V most, size_t i, TexturePlaces& out, size_t k) {
   const V texel = hn::BitCast(kWide, hn::ShiftLeft<23>(hn::Add(level, hn::Set(kWideInt, 127)))),
           one = number(1);
   const V rest =
       hn::Sqrt(hn::Max(hn::Sub(square(longest), square(hn::Mul(texel, number(kSpread)))), hn::Zero(kWide)));
-  const V places = hn::Min(hn::Max(hn::Ceil(hn::Add(hn::Div(rest, texel), number(0.5f))), one), number(most));
+  const V places = hn::Min(hn::Max(hn::Ceil(hn::Add(hn::Div(rest, texel), number(0.5f))), one), most);
   const V whole = hn::Mul(longest, hn::Sqrt(hn::Sub(one, hn::Div(one, square(places)))));
   hn::Store(places, kWide, out.in[k].places + i);
   hn::Store(hn::IfThenElseZero(hn::Gt(places, one), hn::Div(rest, whole)), kWide, out.in[k].scale + i);
@@ -78,16 +78,18 @@ void find_places(const TextureRegions& r, const TextureFilter::Limits& limits, T
     hn::Store(hn::Div(hn::Mul(y, scale), height), kWide, out.t + i);
     hn::Store(longest, kWide, out.longest + i);
 
-    const V texel = hn::Max(
-        hn::Max(hn::Div(shortest, number(kSpread)), hn::Div(longest, number(limits.most_places))), one);
+    const V places =
+        hn::Min(hn::Mul(hn::Max(hn::Load(kWide, r.stretch + i), one), number(limits.most_places)),
+                number(limits.most_stretched));
+    const V texel = hn::Max(hn::Max(hn::Div(shortest, number(kSpread)), hn::Div(longest, places)), one);
     const V level = hn::Min(hn::Max(hn::Log2(kWide, texel), zero), number(limits.last_level));
     V lower = hn::Floor(limits.between_levels ? level : hn::Add(level, half));
     const V part = limits.between_levels ? hn::Sub(level, lower) : zero;
     const I first = hn::ConvertTo(kWideInt, lower);
     hn::Store(hn::Sub(one, part), kWide, out.in[0].weight + i);
     hn::Store(part, kWide, out.in[1].weight + i);
-    spread_places(longest, first, limits.most_places, i, out, 0);
-    spread_places(longest, hn::Add(first, hn::Set(kWideInt, 1)), limits.most_places, i, out, 1);
+    spread_places(longest, first, places, i, out, 0);
+    spread_places(longest, hn::Add(first, hn::Set(kWideInt, 1)), places, i, out, 1);
   }
 }
 
@@ -266,10 +268,13 @@ TextureFilter::TextureFilter(const TextureImage& image, const slvm::TextureLooku
   layout_.limited = o.ignore_above < std::numeric_limits<float>::infinity();
   layout_.ignore_above = o.ignore_above * one_;
   one_sample_ = o.samples == 1;
-  constexpr float kMostPlaces = 16;
-  limits_ = {static_cast<float>(header.levels[0].width), static_cast<float>(header.levels[0].height),
+  constexpr float kMostPlaces = 16, kMostStretched = 128;
+  limits_ = {static_cast<float>(header.levels[0].width),
+             static_cast<float>(header.levels[0].height),
              o.samples >= 1 ? std::min(std::floor(o.samples), 256.0f) : kMostPlaces,
-             static_cast<float>(image.levels() - 1), o.between_levels};
+             o.samples >= 1 ? std::min(std::floor(o.samples), 256.0f) : kMostStretched,
+             static_cast<float>(image.levels() - 1),
+             o.between_levels};
   gaussian_ = o.filter == "gaussian";
   triangle_ = o.filter == "triangle";
   interpolation_ = gaussian_                   ? Interpolation::kBSpline

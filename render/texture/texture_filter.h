@@ -18,6 +18,7 @@ struct TextureRegions {
   using Lanes = LookupLanes;
 
   alignas(64) Lanes s = {}, t = {}, s_u = {}, t_u = {}, s_v = {}, t_v = {}, sblur = {}, tblur = {};
+  alignas(64) Lanes stretch = {}; ///< so many times longer than elsewhere are regions here, if more than 1
 };
 
 /// How texels of a level are put together at a place.
@@ -90,7 +91,7 @@ public:
   /// What is summed up for a region: three channels, and the weight of the texels that count if `limited`.
   static constexpr size_t kSums = 4;
   struct Limits {
-    float width, height, most_places, last_level;
+    float width, height, most_places, most_stretched, last_level;
     bool between_levels;
   };
 

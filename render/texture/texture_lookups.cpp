@@ -17,7 +17,8 @@ namespace {
 
 constexpr size_t kBlock = TextureRegions::kBlock;
 
-/// Looks up every active point; `find(first, count, regions)` gives the regions of some, without blur.
+/// Looks up every active point; `find(first, count, regions)` gives the regions of some, whose blur is there
+/// already.
 template <class F>
 std::string look_up(const TextureImage& image, const TextureLookup& l, TextureWrap swrap, TextureWrap twrap,
                     F&& find) {
@@ -29,9 +30,9 @@ std::string look_up(const TextureImage& image, const TextureLookup& l, TextureWr
     const uint32_t active =
         static_cast<uint32_t>(l.mask[first / 64] >> first % 64) & static_cast<uint32_t>((1ull << count) - 1);
     if (active == 0) continue;
-    find(first, count, regions);
     copy_values(l.sblur, first, count, regions.sblur);
     copy_values(l.tblur, first, count, regions.tblur);
+    find(first, count, regions);
     if (!filter.means(regions, active, means)) return image.problem();
     for (size_t c = 0; c < l.channels; ++c)
       for (size_t k = 0; k < count; ++k)

@@ -11,11 +11,12 @@
 
 namespace {
 
-/// A scene, how small it is made, and its picture that is compared.
+/// A scene, how small it is made, and its picture that is compared, or two.
 struct Small {
   const char* scene;
   double scale;
   const char* picture;
+  const char* other = nullptr;
 };
 
 std::ostream& operator<<(std::ostream& out, const Small& s) {
@@ -38,8 +39,12 @@ TEST_P(Gallery, scene) {
   ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << said;
   EXPECT_EQ(said.find("warning"), std::string::npos) << said;
   // Few rays, and few pixels: chance shows more than in the pictures of the pages.
-  anemone::test::expect_golden(fmt::format("{}/{}/{}", folder.string(), small.scene, small.picture),
-                               fmt::format("{}/{}.exr", GOLDEN_FOLDER, small.scene), {0.01, 0.25});
+  auto expect = [&](const char* picture, const std::string& golden) {
+    anemone::test::expect_golden(fmt::format("{}/{}/{}", folder.string(), small.scene, picture),
+                                 fmt::format("{}/{}", GOLDEN_FOLDER, golden), {0.01, 0.25});
+  };
+  expect(small.picture, fmt::format("{}.exr", small.scene));
+  if (small.other) expect(small.other, fmt::format("{}_{}", small.scene, small.other));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -47,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Small{"bag", 0.2, "passes.exr"}, Small{"baking", 0.2, "light_reused.exr"},
                       Small{"bleeding", 0.2, "indirectdiffuse256.exr"}, Small{"bust", 0.15, "sunny.exr"},
                       Small{"cards", 0.25, "traverse.exr"}, Small{"coral", 0.15, "coral.exr"},
-                      Small{"cornell", 0.2, "bounce.exr"}, Small{"environment", 0.2, "occlusion_each.exr"},
+                      Small{"cornell", 0.2, "bounce.exr"},
+                      Small{"environment", 0.2, "occlusion_each.exr", "occlusion_direction.exr"},
                       Small{"frosted", 0.15, "passes.exr"}, Small{"guidedshadows", 0.2, "guided.exr"},
                       Small{"gumdrop", 0.25, "f0.6_0.14.exr"}, Small{"guts", 0.2, "fish.exr"},
                       Small{"jar", 0.2, "passes.exr"}, Small{"labels", 0.25, "labels.exr"},

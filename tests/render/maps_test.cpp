@@ -52,9 +52,9 @@ protected:
     return format_diagnostics(diagnostics, sources);
   }
 
-  /// One lookup of a region that is a point unless `width` says more.
+  /// One lookup of a region that is a point unless `width` or `blur` say more.
   Color look_up(std::string (TextureMaps::*call)(const slvm::TextureLookup&), const std::string& map, Vec3 at,
-                float width = 0) {
+                float width = 0, float blur = 0) {
     slvm::TextureLookup l;
     uint64_t mask = 1;
     float result[3] = {};
@@ -68,6 +68,7 @@ protected:
       l.along_v[c] = {c == 1 ? width : 0};
       l.result[c] = &result[c];
     }
+    l.sblur = l.tblur = {blur};
     TextureMaps::Settings settings;
     settings.folders = {directory_.string()};
     TextureMaps maps(settings);
@@ -207,6 +208,27 @@ TEST_F(Maps, latlong_environments_point_where_the_image_says) {
     Color c = look_up(&TextureMaps::environment, path("sky.env"), d), want = of_direction(d);
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(c[i], want[i], 0.01f) << d.x << " " << d.y << " " << d.z;
+  }
+}
+
+/// One half of the sky is bright. Above, a blurred lookup sees as much of it as of the other half, whichever
+/// way it leans by a hair.
+TEST_F(Maps, blurred_lookups_at_a_pole_see_all_longitudes) {
+  const std::string source =
+      image("half.exr", 256, 128, [](float s, float) { return Color(s < 0.5f ? 1.0f : 0.0f); });
+  ASSERT_EQ(make_latlong(source, path("half.env"), {kPeriodic, kClamp, FilterKind::kBox}), "");
+  const Vec3 leans[] = {{0, 0, 0}, {1e-4f, 0, 0}, {0, 1e-4f, 0}, {0, -1e-4f, 0}, {0, -2e-3f, 0}};
+  auto bright = [&](Vec3 d, float width, float blur) {
+    return look_up(&TextureMaps::environment, path("half.env"), d, width, blur).x;
+  };
+  for (float z : {1.0f, -1.0f})
+    for (Vec3 lean : leans) {
+      EXPECT_NEAR(bright(Vec3(0, 0, z) + lean, 0, 0.05f), 0.5f, 0.02f) << z << " " << lean.x << " " << lean.y;
+      EXPECT_NEAR(bright(Vec3(0, 0, z) + lean, 0.1f, 0), 0.5f, 0.02f) << z << " " << lean.x << " " << lean.y;
+    }
+  for (float y : {0.3f, -0.3f}) {
+    EXPECT_NEAR(bright({0, y, 1}, 0, 0.05f), y > 0 ? 1 : 0, 0.02f);
+    EXPECT_NEAR(bright({0, y, 1}, 0.1f, 0), y > 0 ? 1 : 0, 0.02f);
   }
 }
 
