@@ -39,8 +39,9 @@ struct RayOptions {
   std::string_view label; ///< rayinfo("label") at the hits
   std::string_view
       subset; ///< groups that can be hit: names apart by spaces or commas, "-name" leaves out; empty: all
-  bool shades = true; ///< false: no shader of any hit runs (gather's category "occlusion")
-  uint32_t seed = 0;  ///< of what is random: differs from call to call of one run of a shader
+  bool shades = true;         ///< false: no shader of any hit runs (gather's category "occlusion")
+  bool wants_distance = true; ///< false: of a hit the distance may be 0, if nothing else is wanted either
+  uint32_t seed = 0;          ///< of what is random: differs from call to call of one run of a shader
 };
 
 /// Rays as structures of arrays, `count` long. Directions have length 1.

@@ -21,9 +21,8 @@ EmbreeLibrary::EmbreeLibrary(const char* file) {
 #undef SL_FIND
 }
 
-const EmbreeLibrary& embree() {
-  static const EmbreeLibrary kLibrary(EMBREE_LIBRARY);
-  return kLibrary;
+const char* EmbreeLibrary::usual_file() {
+  return EMBREE_LIBRARY;
 }
 
 } // namespace render

@@ -44,6 +44,8 @@ namespace render {
 struct EmbreeLibrary {
   /// `file`: as dlopen() finds it. Never unloaded: it has threads of its own.
   explicit EmbreeLibrary(const char* file);
+  /// The one this was built with.
+  static const char* usual_file();
 
   std::string problem; ///< why there are no functions; empty: there are
 #define SL_FUNCTION(name) decltype(&::name) name = nullptr;
@@ -51,7 +53,10 @@ struct EmbreeLibrary {
 #undef SL_FUNCTION
 };
 
-/// The one this was built with. Loaded at the first call.
-const EmbreeLibrary& embree();
+/// Loaded at the first call; called for every ray.
+inline const EmbreeLibrary& embree() {
+  static const EmbreeLibrary kLibrary(EmbreeLibrary::usual_file());
+  return kLibrary;
+}
 
 } // namespace render

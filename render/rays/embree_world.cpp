@@ -185,11 +185,22 @@ std::unique_ptr<const FaceScene> RayDevice::build(const QuadMesh& mesh) const {
 }
 
 struct RayWorld::Impl {
+  Impl(std::vector<WorldItem> i, ItemFaces& f) : items(std::move(i)), source(f), known(items.size()) {}
+
   std::vector<WorldItem> items;
   ItemFaces& source;
-  RTCScene top; ///< null: nothing to hit
+  RTCScene top = nullptr; ///< null: nothing to hit
+  /// Faces that were asked for: there are many rays an item.
+  mutable std::vector<std::atomic<RTCScene>> known;
 
-  const FaceScene* faces(uint32_t item) const { return source.faces(item); }
+  /// Null: the item has none.
+  RTCScene faces(uint32_t item) const {
+    if (RTCScene scene = known[item].load(std::memory_order_acquire)) return scene;
+    const FaceScene* made = source.faces(item);
+    if (!made) return nullptr;
+    known[item].store(faces_of(made), std::memory_order_release);
+    return faces_of(made);
+  }
 };
 
 namespace {
@@ -314,11 +325,16 @@ template <class Arguments, class Trace> void visit_item(const Arguments* args, R
   const auto& world = *static_cast<const RayWorld::Impl*>(args->geometryUserPtr);
   const WorldItem& item = world.items[args->primID];
   if (!q.enter(item, args->primID)) return;
-  const FaceScene* faces = world.faces(args->primID);
+  const RTCScene faces = world.faces(args->primID);
   if (!faces) return;
+  const RTCFilterFunctionN filter = q.filters() ? filter_hit : nullptr;
+  if (!item.placed) {
+    trace(q, item.solid, faces, filter);
+    return;
+  }
   const RTCRay whole = ray;
-  if (item.placed) ray = place(ray, item.to_item);
-  trace(q, item.solid, faces_of(faces), q.filters() ? filter_hit : nullptr);
+  ray = place(ray, item.to_item);
+  trace(q, item.solid, faces, filter);
   const float reached = ray.tfar;
   ray = whole;
   ray.tfar = reached;
@@ -342,9 +358,10 @@ std::optional<RayHit> hit_solid(Query& q, RTCScene faces, const RTCRay& ray) {
 
 void intersect_item(const RTCIntersectFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  visit_item(args, ray.ray, [&](Query& q, bool solid, auto faces, RTCFilterFunctionN filter) {
-    // A face at the distance of the last hit takes its place, and tfar stays: only geomID tells.
-    const RTCHit before = ray.hit;
+  visit_item(args, ray.ray, [&](Query& q, bool solid, RTCScene faces, RTCFilterFunctionN filter) {
+    // A face at the distance of the last hit takes its place, and tfar stays: only geomID tells. Where
+    // nothing is hit the rest is not touched.
+    const unsigned before = ray.hit.geomID;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     if (!solid)
       intersect(faces, q.inner, filter, ray);
@@ -358,13 +375,13 @@ void intersect_item(const RTCIntersectFunctionNArguments* args) {
     if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID)
       q.hit_item = args->primID;
     else
-      ray.hit = before;
+      ray.hit.geomID = before;
   });
 }
 
 void occlude_item(const RTCOccludedFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  visit_item(args, ray, [&](Query& q, bool solid, auto faces, RTCFilterFunctionN filter) {
+  visit_item(args, ray, [&](Query& q, bool solid, RTCScene faces, RTCFilterFunctionN filter) {
     if (!solid)
       occluded(faces, q.inner, filter, ray);
     else if (hit_solid(q, faces, ray))
@@ -393,7 +410,7 @@ bool is_usable(const RaySegment& ray) {
 } // namespace
 
 RayWorld::RayWorld(const RayDevice& device, std::vector<WorldItem> items, ItemFaces& faces)
-    : impl_(new Impl{std::move(items), faces, nullptr}) {
+    : impl_(std::make_unique<Impl>(std::move(items), faces)) {
   RTCDevice d = impl_->items.empty() ? nullptr : device.impl().get();
   if (!d) return;
   impl_->top = embree().rtcNewScene(d);
@@ -412,6 +429,11 @@ RayWorld::RayWorld(const RayDevice& device, std::vector<WorldItem> items, ItemFa
 
 RayWorld::~RayWorld() {
   if (impl_->top) embree().rtcReleaseScene(impl_->top);
+}
+
+void RayWorld::forget_faces() {
+  for (auto& scene : impl_->known)
+    scene.store(nullptr, std::memory_order_relaxed);
 }
 
 namespace {

@@ -83,7 +83,8 @@ struct RayCrossing {
 class ItemFaces {
 public:
   virtual ~ItemFaces() = default;
-  /// Null: there are none. What it gives stays until no query is running.
+  /// Null: there are none. What it gives stays until the world has been told to forget it, and no query is
+  /// running. Asked again only then.
   virtual const FaceScene* faces(uint32_t item) = 0;
   /// Whether two faces of an item belong to one surface: a ray through the edge between them meets it once.
   virtual bool same_surface(uint32_t item, uint32_t face, uint32_t other) const = 0;
@@ -106,6 +107,9 @@ public:
   /// `faces` must outlive the world.
   RayWorld(const RayDevice& device, std::vector<WorldItem> items, ItemFaces& faces);
   ~RayWorld();
+
+  /// Asks the source for faces anew.
+  void forget_faces();
 
   /// The nearest hit; with a cursor, behind it. False: none.
   bool nearest(const RayRule&, const RaySegment&, const slvm::RayCursor* behind, RayHit& hit) const;

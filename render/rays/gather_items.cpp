@@ -41,7 +41,9 @@ bool same_geometry(const Geometry& a, const Geometry& b) {
 class RayGeometry::Gatherer {
 public:
   Gatherer(RayGeometry& out, const Camera& camera)
-      : out_(out), primitives_(out.scene_.primitives), runs_(primitives_.runs()), camera_(camera) {}
+      : out_(out), primitives_(out.scene_.primitives), runs_(primitives_.runs()), camera_(camera),
+        most_faces_(
+            std::min(out.settings_.item_faces, out.settings_.most_bytes / (kLeastItems * kBytesOfFace))) {}
 
   void run() {
     for (const Run& r : runs_)
@@ -94,6 +96,9 @@ private:
   const PrimitiveList& primitives_;
   std::span<const Run> runs_;
   const Camera& camera_;
+  /// Items are dropped one by one: so many have to fit into the memory there is.
+  static constexpr size_t kLeastItems = 4, kBytesOfFace = 160;
+  size_t most_faces_;
   bool sampled_ = false;          ///< some rays see motion
   std::vector<uint8_t> seen_;     ///< by run
   std::vector<RayTraits> traits_; ///< by run
@@ -334,7 +339,7 @@ void RayGeometry::Gatherer::split(const RayTraits& traits, List::iterator begin,
     faces += rates_[*it].faces();
     centres.add(centre(*it));
   }
-  if (faces <= out_.settings_.item_faces || end - begin == 1) {
+  if (faces <= most_faces_ || end - begin == 1) {
     List list(begin, end);
     std::sort(list.begin(), list.end());
     add(traits, list);

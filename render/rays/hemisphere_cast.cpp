@@ -1,79 +1,51 @@
 // Shooting the rays of a HemisphereSampler.
 #include "render/rays/hemisphere_rays.h"
 
-#include <cmath>
-
 namespace render {
 
-/// Where it is enough to know whether there is anything.
-void HemisphereSampler::cast_blocked(Rays& rays) {
-  RayGeometry& g = tracer_.geometry();
-  const RayRule rule = g.rule(query_.rays.kind, query_.rays.subset, query_.rays.sides);
+void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays) {
+  tracer_.hemisphere_rays_ += rays.size();
+  slvm::RayOptions options = query_.rays;
+  options.wants_distance = !only_blocked();
   slvm::RayBatch batch;
+  batch.count = rays.size();
+  slvm::RayOutput light;
+  light.from = slvm::RayOutput::From::kShaded;
+  light.name = "Ci";
+  light.type = slvm::Type::kColor;
+  rays.colours.assign(wants_light_ ? 3 * rays.size() : 0, 0.0f);
+  light.data = rays.colours.data();
+  light.pitch = rays.size();
   for (int c = 0; c < 3; ++c) {
     batch.origin[c] = rays.origin[c].data();
     batch.direction[c] = rays.direction[c].data();
+    if (query_.weight[c]) {
+      rays.weight[c].clear();
+      for (uint32_t point : rays.point)
+        rays.weight[c].push_back(query_.weight[c][point]);
+      batch.weight[c] = rays.weight[c].data();
+    }
+    if (!needs_width()) continue;
+    batch.origin_du[c] = batch.origin_dv[c] = rays.still[c].data();
+    batch.direction_du[c] = rays.direction_du[c].data();
+    batch.direction_dv[c] = rays.direction_dv[c].data();
   }
   batch.max_distance = rays.max_distance.data();
   batch.bias = rays.bias.data();
   batch.point = rays.point.data();
   batch.sample = rays.sample.data();
-  {
-    auto tracing = g.tracing();
-    for (size_t i = 0; i < rays.size(); ++i)
-      if (g.world().any(rule, tracer_.segment(shooter_, query_.rays, batch, i))) {
-        cells_.blocked[rays.cell[i]] = 1;
-        cells_.distance[rays.cell[i]] = 1; // any number
-      }
-  }
-  g.trim();
-}
-
-void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays) {
-  tracer_.hemisphere_rays_ += rays.size();
-  if (only_blocked())
-    cast_blocked(rays);
-  else {
-    slvm::RayBatch batch;
-    batch.count = rays.size();
-    slvm::RayOutput light;
-    light.from = slvm::RayOutput::From::kShaded;
-    light.name = "Ci";
-    light.type = slvm::Type::kColor;
-    rays.colours.assign(wants_light_ ? 3 * rays.size() : 0, 0.0f);
-    light.data = rays.colours.data();
-    light.pitch = rays.size();
-    for (int c = 0; c < 3; ++c) {
-      batch.origin[c] = rays.origin[c].data();
-      batch.direction[c] = rays.direction[c].data();
-      if (query_.weight[c]) {
-        rays.weight[c].clear();
-        for (uint32_t point : rays.point)
-          rays.weight[c].push_back(query_.weight[c][point]);
-        batch.weight[c] = rays.weight[c].data();
-      }
-      if (!needs_width()) continue;
-      batch.origin_du[c] = batch.origin_dv[c] = rays.still[c].data();
-      batch.direction_du[c] = rays.direction_du[c].data();
-      batch.direction_dv[c] = rays.direction_dv[c].data();
-    }
-    batch.max_distance = rays.max_distance.data();
-    batch.bias = rays.bias.data();
-    batch.point = rays.point.data();
-    batch.sample = rays.sample.data();
-    rays.distance.resize(rays.size());
-    tracer_.trace_by(shooter_, query_.rays, batch, {&light, wants_light_ ? size_t{1} : size_t{0}},
-                     rays.distance.data(), nullptr);
-    tracer_.rays_ -= rays.size();
-    for (size_t i = 0; i < rays.size(); ++i) {
-      const size_t cell = rays.cell[i];
-      const float d = rays.distance[i] == slvm::kNotShot ? kInfinity : rays.distance[i];
-      cells_.distance[cell] = d;
-      cells_.blocked[cell] = blocked_by(points[rays.index[i]], d);
-      if (wants_light_ && d < kInfinity)
-        cells_.light[cell] = {rays.colours[i], rays.colours[rays.size() + i],
-                              rays.colours[2 * rays.size() + i]};
-    }
+  rays.distance.resize(rays.size());
+  tracer_.trace_by(shooter_, options, batch, {&light, wants_light_ ? size_t{1} : size_t{0}},
+                   rays.distance.data(), nullptr);
+  tracer_.rays_ -= rays.size();
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const size_t cell = rays.cell[i];
+    const float d = rays.distance[i] == slvm::kNotShot ? kInfinity : rays.distance[i];
+    cells_.distance[cell] = d;
+    cells_.blocked[cell] = blocked_by(points[rays.index[i]], d);
+    if (wants_light_ && d < kInfinity)
+      cells_.light[cell] = {rays.colours[i], rays.colours[rays.size() + i],
+                            rays.colours[2 * rays.size() + i]};
   }
   if (wants_map_) look_up_map(rays);
 }

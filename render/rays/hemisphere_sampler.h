@@ -58,7 +58,6 @@ private:
   void first_rays(std::span<const HemispherePoint> points, Rays& rays);
   void more_rays(std::span<const HemispherePoint> points, Rays& rays);
   void cast(std::span<const HemispherePoint> points, Rays& rays);
-  void cast_blocked(Rays& rays);
   void look_up_map(Rays& rays);
   void finish(const HemispherePoint& point, size_t index, HemisphereSample& out);
   void gradients(const HemispherePoint& point, size_t first, HemisphereSample& out);

@@ -36,7 +36,7 @@ std::vector<float> moments_of(const std::set<float>& keys) {
 
 RayGeometry::~RayGeometry() = default;
 
-/// Called by Embree for each ray that comes to the item.
+/// Called for the first ray that comes to an item, and again when the world forgot.
 const FaceScene* RayGeometry::faces(uint32_t index) {
   Item& item = *items_[items_[index]->model];
   uint64_t now = clock_.load(std::memory_order_relaxed);
@@ -182,15 +182,19 @@ RayRule RayGeometry::rule(slvm::RayKind kind, std::string_view subset, slvm::Hit
 }
 
 void RayGeometry::trim() {
-  clock_.fetch_add(1, std::memory_order_relaxed);
+  const uint64_t now = clock_.fetch_add(1, std::memory_order_relaxed);
+  const size_t enough = settings_.most_bytes / 4 * 3;
+  // Which faces are in use is asked now and then from when some may have to go.
+  if (device_.bytes() > enough && now % 16 == 0) world_->forget_faces();
   if (device_.bytes() <= settings_.most_bytes) return;
   std::unique_lock lock(gate_);
+  world_->forget_faces();
   std::vector<std::pair<uint64_t, Item*>> all;
   for (const auto& item : items_)
     if (item->faces) all.emplace_back(item->used.load(), item.get());
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   // Well below the limit, or the next rays would be here again. What was used last stays, however large.
-  for (size_t i = 0; i + 1 < all.size() && device_.bytes() > settings_.most_bytes / 4 * 3; ++i) {
+  for (size_t i = 0; i + 1 < all.size() && device_.bytes() > enough; ++i) {
     Item& item = *all[i].second;
     item.ready = nullptr;
     item.made = false;

@@ -30,7 +30,9 @@ struct RayTraits {
 
 struct RayGeometrySettings {
   size_t most_bytes = size_t{1} << 30; ///< of faces and hierarchies
-  size_t item_faces = size_t{1} << 18; ///< gathered in one item, about
+  /// Gathered in one item, about. Rays are fastest where one item has all; they come to many items late, or
+  /// never.
+  size_t item_faces = size_t{1} << 20;
   bool photons = false; ///< specular rays are photons: they see what Attribute "visibility" shows to these
 };
 

@@ -141,6 +141,7 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
   RayGeometry& g = geometry();
   const RayRule rule = g.rule(options.kind, options.subset, options.sides);
   const std::vector<Color> weight = weights(by, batch);
+  const bool any_hit_will_do = !options.wants_distance && outputs.empty() && !cursors;
   size_t shot = 0;
   std::vector<HitRay> hits = hits_.take_list();
   if (!outputs.empty()) hits.reserve(batch.count);
@@ -165,6 +166,10 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
       }
       ++shot;
       RaySegment ray = segment(by, options, batch, i);
+      if (any_hit_will_do) {
+        distance[i] = g.world().any(rule, ray) ? 0 : kInfinity;
+        continue;
+      }
       RayHit hit;
       bool found = g.world().nearest(rule, ray, cursors ? &cursors[i] : nullptr, hit);
       distance[i] = found ? hit.distance : kInfinity;

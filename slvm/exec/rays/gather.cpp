@@ -45,6 +45,8 @@ void GatherLoop::begin(const GridCall& call, Form form) {
   options_ = tokens.ray_options(kind_for_cone(call.run, spec.angle));
   options_.shades = shades;
   read_values(call, tokens);
+  options_.wants_distance = std::any_of(values_.begin(), values_.end(),
+                                        [](const RayValue& v) { return v.of == RayValue::Of::kLength; });
   spec.differentials = options_.shades && std::any_of(values_.begin(), values_.end(), [](const RayValue& v) {
                          return v.of == RayValue::Of::kHit && v.output.from != RayOutput::From::kPrimitive &&
                                 v.output.from != RayOutput::From::kAttribute;

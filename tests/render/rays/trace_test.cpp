@@ -408,6 +408,39 @@ TEST(Trace, rays_that_are_not_shot_leave_others_their_hits) {
   }
 }
 
+TEST(Trace, where_no_distance_is_wanted_any_hit_will_do) {
+  RayScene s("Option \"trace\" \"float minweight\" 0.1 " +
+             world("Translate 0 0 4 Disk 0 2 360 Sides 1 Translate 0 0 1 Disk 0 3 360 ReverseOrientation "
+                   "Translate 0 0 1 Disk 0 4 360"));
+  slvm::RayOptions any;
+  any.wants_distance = false;
+  std::vector<TestRay> rays;
+  for (float x : {0.5f, 1.9f, 2.1f, 2.9f, 3.1f, 3.9f, 4.1f})
+    for (float limit : {3.5f, 4.5f, 5.5f, 7.0f, kInfinity})
+      for (float z : {0.0f, 10.0f})
+        rays.push_back({{x, 0.1f, z}, {0, 0, z > 0 ? -1.0f : 1.0f}, limit});
+  const auto with = s.trace(rays), without = s.trace(rays, {}, any);
+  size_t hits = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    hits += with[i].distance < kInfinity;
+    EXPECT_EQ(without[i].distance, with[i].distance < kInfinity ? 0 : kInfinity) << i;
+  }
+  EXPECT_GT(hits, 10u);
+  EXPECT_LT(hits, rays.size() - 10);
+  // What else is asked decides as well.
+  const TestRay ahead{{0.5f, 0.1f, 0}};
+  EXPECT_NEAR(
+      s.trace({ahead}, {RayScene::output(slvm::RayOutput::From::kPrimitive, "P", Type::kPoint)}, any)[0]
+          .distance,
+      4, 1e-5f);
+  slvm::RayCursor cursor;
+  EXPECT_NEAR(s.trace({ahead}, {}, any, &cursor)[0].distance, 4, 1e-5f);
+  float light[1] = {0.05f};
+  for (auto& w : s.asking_grid().ray.weight)
+    w = light;
+  EXPECT_EQ(s.distance(ahead, any), slvm::kNotShot);
+}
+
 TEST(Trace, cursors_find_one_surface_after_the_other) {
   // Cards, two of them in the same place; and rays through the edges between faces.
   RayScene two(world("Translate 0 0 2 Disk 0 3 360 Disk 2 3 360 Disk 2 3 360 Disk 5 3 360")),

@@ -98,6 +98,19 @@ TEST_F(Gather, WhatIsMissingKeepsItsValue) {
             all(11));
 }
 
+TEST_F(Gather, DistancesAreAskedForWhereTheyAreSeen) {
+  scene_.surfaces = {plane_at(5)};
+  const std::string rays = "P, vector (0, 0, 1), 0, 1";
+  EXPECT_EQ(run("gather(\"\", " + rays + ") result = 1; else result = 2;"), all(1));
+  EXPECT_EQ(run("vector d = 0; gather(\"occlusion\", " + rays + ", \"ray:direction\", d) result = zcomp(d);"),
+            all(1));
+  EXPECT_EQ(run("float d = 0; gather(\"\", " + rays + ", \"ray:length\", d) result = d;"), all(4));
+  ASSERT_EQ(scene_.calls.size(), 3u);
+  EXPECT_FALSE(scene_.calls[0].wants_distance);
+  EXPECT_FALSE(scene_.calls[1].wants_distance);
+  EXPECT_TRUE(scene_.calls[2].wants_distance);
+}
+
 TEST_F(Gather, DirectionAndOriginAreKnownForMissesToo) {
   EXPECT_EQ(run("vector d = 0; point o = 0; gather(\"\", P, vector (0, 3, 0), 0, 1, \"ray:direction\", d, "
                 "\"ray:origin\", o) "

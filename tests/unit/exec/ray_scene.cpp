@@ -38,8 +38,9 @@ AskedRay ray_of(const RayBatch& batch, size_t r) {
 }
 
 AskedCall call_of(const RayOptions& o) {
-  return {o.kind, o.sides, o.mode, std::string(o.label), std::string(o.subset), o.shades, false,
-          o.seed, 0,       {}};
+  return {
+      o.kind, o.sides, o.mode, std::string(o.label), std::string(o.subset), o.shades, false, o.wants_distance,
+      o.seed, 0,       {}};
 }
 
 const char* name_of(RayOutput::From from) {
@@ -153,7 +154,8 @@ void RayScene::trace(const ShadingState&, const RayOptions& options, const RayBa
                std::tuple(c.distance, c.primitive, c.face);
       });
     if (it == met.end()) continue; // stays infinite
-    distance[r] = static_cast<float>(it->distance);
+    const bool any_will_do = !options.wants_distance && outputs.empty() && !cursors;
+    distance[r] = any_will_do ? 0 : static_cast<float>(it->distance);
     if (cursors) cursors[r] = {distance[r], it->surface + 1, it->face};
     for (const RayOutput& o : outputs)
       if (options.shades || o.from == RayOutput::From::kPrimitive || o.from == RayOutput::From::kAttribute)

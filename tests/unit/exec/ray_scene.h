@@ -38,7 +38,7 @@ struct AskedCall {
   HitSides sides = HitSides::kBoth;
   HitMode mode = HitMode::kDefault;
   std::string label, subset;
-  bool shades = true, transmission = false;
+  bool shades = true, transmission = false, wants_distance = true;
   uint32_t seed = 0;
   size_t rays = 0;
   std::vector<std::string> outputs;
