@@ -92,11 +92,11 @@ constexpr int kPlugIn = 1004, kAirPlugIn = 9000;
 } // namespace
 
 /// Fills in an operator of the code 0 to 7. The text of an error, or nothing.
-std::string BlobbyField::add_operator(int op, std::span<const int> operands, Node& node) const {
+std::string BlobbyField::add_operator(int code, std::span<const int> operands, Node& node) const {
   for (int o : operands)
     if (o < 0 || static_cast<size_t>(o) >= nodes_.size())
-      return fmt::format("operator {} uses result {}, which does not precede it", op, o);
-  node.kind = static_cast<Kind>(static_cast<int>(Kind::kAdd) + op);
+      return fmt::format("operator {} uses result {}, which does not precede it", code, o);
+  node.kind = static_cast<Kind>(static_cast<int>(Kind::kAdd) + code);
   node.operands.assign(operands.begin(), operands.end());
   return {};
 }
@@ -115,7 +115,7 @@ void BlobbyField::add_up_roots() {
 }
 
 BlobbyField BlobbyField::make(std::span<const int> code, std::span<const float> floats, const Warn& warn,
-                              const FindGround& find_ground) {
+                              const FindGround& find_ground, Codes codes) {
   BlobbyField out;
   size_t i = 0;
   // The next n numbers of the code; fewer where it ends.
@@ -163,7 +163,8 @@ BlobbyField BlobbyField::make(std::span<const int> code, std::span<const float> 
       const auto operands = take(count);
       if (count == 0 || operands.size() != count)
         return stop(fmt::format("operator {} ends before its operands", op));
-      wrong = out.add_operator(op, operands, node);
+      const bool turned = codes == Codes::kNote31 && (op == 4 || op == 5);
+      wrong = out.add_operator(turned ? 9 - op : op, operands, node);
     } else {
       return stop(fmt::format("unknown code {}", op));
     }

@@ -19,12 +19,15 @@ public:
 
   /// The ground of the string with this number; null: there is none, and nothing repels.
   using FindGround = std::function<std::shared_ptr<const BlobbyGround>(int)>;
+  /// Which operators the codes 4 and 5 are: subtract and divide as in the RenderMan Interface Specification
+  /// 3.2, table 5.3, and in PRMan; or the other way round, as in the table of its application note 31.
+  enum class Codes : uint8_t { kSpecification, kNote31 };
   /// Told what is wrong, and what is done without it.
   using Warn = std::function<void(const std::string&)>;
   /// From the arguments of the request. Leaves that cannot be have the field 0; behind a code that is not
   /// known nothing can be read, and what stands before is added up.
   static BlobbyField make(std::span<const int> code, std::span<const float> floats, const Warn& warn,
-                          const FindGround& find_ground = {});
+                          const FindGround& find_ground = {}, Codes codes = Codes::kSpecification);
 
   double at(glm::dvec3 p) const;
   /// A field that has the same values in `box`, without the leaves that do not reach it: cheaper where there
@@ -55,8 +58,8 @@ private:
     kMultiply,
     kMax,
     kMin,
-    kDivide,
     kSubtract,
+    kDivide,
     kNegate,
     kIdentity
   };
@@ -72,7 +75,7 @@ private:
     std::vector<int> operands;
   };
   std::string add_leaf(int code, std::span<const float> floats, Node& node);
-  std::string add_operator(int op, std::span<const int> operands, Node& node) const;
+  std::string add_operator(int code, std::span<const int> operands, Node& node) const;
   void add_up_roots();
   static double leaf(const Node& node, glm::dvec3 p);
   int near_operator(const Node& node, const std::vector<int>& kept);

@@ -1,6 +1,6 @@
 // Embree's functions, from its shared library, which is loaded when a world for rays is first made: to map
 // and to relocate it takes a thirtieth of what a small picture takes, and most pictures have no rays. Works
-// with Embree 3 and 4. Read next: embree_world.h, which alone calls these.
+// with Embree 3 and 4. Read next: embree_world.h, behind which alone these are called.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)

@@ -4,185 +4,16 @@
 // and items can be dropped and made again while the world stays as it is.
 #include "render/rays/embree_world.h"
 
-#include "render/rays/embree_library.h"
-
-#include <tbb/task_arena.h>
+#include "render/rays/embree_calls.h"
+#include "render/rays/embree_faces.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <mutex>
 #include <optional>
 #include <tuple>
 
 namespace render {
-
-namespace {
-
-#if RTC_VERSION_MAJOR >= 4
-using QueryContext = RTCRayQueryContext;
-void init_context(QueryContext& c) {
-  rtcInitRayQueryContext(&c);
-}
-constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
-void allow_filter(RTCGeometry g) {
-  embree().rtcSetGeometryEnableFilterFunctionFromArguments(g, true);
-}
-void intersect(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRayHit& ray) {
-  RTCIntersectArguments a;
-  rtcInitIntersectArguments(&a);
-  a.context = &c;
-  a.filter = filter;
-  embree().rtcIntersect1(scene, &ray, &a);
-}
-void occluded(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRay& ray) {
-  RTCOccludedArguments a;
-  rtcInitOccludedArguments(&a);
-  a.context = &c;
-  a.filter = filter;
-  embree().rtcOccluded1(scene, &ray, &a);
-}
-#else
-using QueryContext = RTCIntersectContext;
-void init_context(QueryContext& c) {
-  rtcInitIntersectContext(&c);
-}
-constexpr RTCSceneFlags kFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
-void allow_filter(RTCGeometry) {}
-void intersect(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRayHit& ray) {
-  c.filter = filter;
-  embree().rtcIntersect1(scene, &c, &ray);
-}
-void occluded(RTCScene scene, QueryContext& c, RTCFilterFunctionN filter, RTCRay& ray) {
-  c.filter = filter;
-  embree().rtcOccluded1(scene, &c, &ray);
-}
-#endif
-
-/// How far the third corner of a face is from where a parallelogram would have it, in its first and last
-/// sides. Two bytes, for these are read at random; where they are not enough there are none.
-class Skew {
-public:
-  Skew(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-    const Vec3 x = b - a, y = d - a, off = c - b - y;
-    const float xx = glm::dot(x, x), xy = glm::dot(x, y), yy = glm::dot(y, y);
-    const float dx = glm::dot(off, x), dy = glm::dot(off, y), determinant = xx * yy - xy * xy;
-    const float s = (dx * yy - dy * xy) / determinant * kSteps,
-                t = (dy * xx - dx * xy) / determinant * kSteps;
-    if (!(std::abs(s) < 127 && std::abs(t) < 127)) return;
-    along_first_ = static_cast<int8_t>(std::lround(s));
-    along_last_ = static_cast<int8_t>(std::lround(t));
-  }
-  float along_first() const { return along_first_ / kSteps; }
-  float along_last() const { return along_last_ / kSteps; }
-
-private:
-  static constexpr float kSteps = 64;
-  int8_t along_first_ = 0, along_last_ = 0;
-};
-
-class EmbreeFaces final : public FaceScene {
-public:
-  EmbreeFaces(RTCScene s, const QuadMesh& mesh) : scene(s) {
-    skews_.reserve(mesh.faces.size());
-    for (const auto& [a, b, c, d] : mesh.faces)
-      skews_.emplace_back(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
-  }
-  ~EmbreeFaces() override { embree().rtcReleaseScene(scene); }
-  RTCScene scene;
-
-  /// One step of Newton's method.
-  Vec2 on_patch(const RayHit& hit) const override {
-    const float s = skews_[hit.face].along_first(), t = skews_[hit.face].along_last();
-    // u v in the triangle at the first corner, (1 - u) (1 - v) in the other one, where u + v > 1.
-    const float off = hit.u * hit.v - std::max(hit.u + hit.v - 1, 0.0f);
-    // Of triangles it is exact as far as to the corner their last side is.
-    const float least = s == -1 && t == 0 ? 1e-6f : 0.1f;
-    const float by = off / std::max(1 + hit.v * s + hit.u * t, least);
-    return {hit.u - by * s, hit.v - by * t};
-  }
-
-private:
-  std::vector<Skew> skews_;
-};
-
-RTCScene faces_of(const FaceScene* faces) {
-  return static_cast<const EmbreeFaces*>(faces)->scene;
-}
-
-/// Builds run on all processors; while this thread waits for them it must not take up other work of the
-/// renderer, which could wait for what is being built here.
-void commit(RTCScene scene) {
-  tbb::this_task_arena::isolate([&] { embree().rtcCommitScene(scene); });
-}
-
-/// Hits of two faces of a surface that differ by less, relative to the distance, are one at the edge between
-/// them.
-constexpr float kSamePlace = 2e-6f;
-
-} // namespace
-
-struct RayDevice::Impl {
-  ~Impl() {
-    if (device) embree().rtcReleaseDevice(device);
-  }
-  /// Made at the first call: it takes a thirtieth of the time of a small picture, even when there is nothing
-  /// for rays in it. Null: there is a problem.
-  RTCDevice get() {
-    std::call_once(made, [this] {
-      problem = embree().problem;
-      if (!problem.empty()) return;
-      device = embree().rtcNewDevice(nullptr);
-      auto count = [](void* user, ssize_t size, bool) {
-        static_cast<Impl*>(user)->bytes.fetch_add(size, std::memory_order_relaxed);
-        return true;
-      };
-      embree().rtcSetDeviceMemoryMonitorFunction(device, count, this);
-    });
-    return device;
-  }
-
-  std::once_flag made;
-  RTCDevice device = nullptr;
-  std::string problem;
-  std::atomic<int64_t> bytes{0};
-};
-
-RayDevice::RayDevice() : impl_(std::make_unique<Impl>()) {}
-RayDevice::~RayDevice() = default;
-const std::string& RayDevice::problem() const {
-  return impl_->problem;
-}
-size_t RayDevice::bytes() const {
-  return static_cast<size_t>(std::max<int64_t>(impl_->bytes, 0));
-}
-
-std::unique_ptr<const FaceScene> RayDevice::build(const QuadMesh& mesh) const {
-  RTCDevice device = mesh.faces.empty() ? nullptr : impl_->get();
-  if (!device) return nullptr;
-  RTCScene scene = embree().rtcNewScene(device);
-  embree().rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilterFlag));
-  RTCGeometry g = embree().rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-  allow_filter(g);
-  size_t points = mesh.points.size() / mesh.times;
-  embree().rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(mesh.times));
-  for (size_t t = 0; t < mesh.times; ++t) {
-    auto* to = static_cast<float*>(embree().rtcSetNewGeometryBuffer(
-        g, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(t), RTC_FORMAT_FLOAT3, 3 * sizeof(float), points));
-    for (size_t i = 0; i < points; ++i)
-      for (int c = 0; c < 3; ++c)
-        *to++ = mesh.points[t * points + i][c];
-  }
-  auto* index = static_cast<uint32_t*>(embree().rtcSetNewGeometryBuffer(
-      g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(uint32_t), mesh.faces.size()));
-  for (const auto& face : mesh.faces)
-    index = std::copy(face.begin(), face.end(), index);
-  embree().rtcCommitGeometry(g);
-  embree().rtcAttachGeometry(scene, g);
-  embree().rtcReleaseGeometry(g);
-  commit(scene);
-  return std::make_unique<EmbreeFaces>(scene, mesh);
-}
 
 struct RayWorld::Impl {
   Impl(std::vector<WorldItem> i, ItemFaces& f) : items(std::move(i)), source(f), known(items.size()) {}
@@ -198,12 +29,16 @@ struct RayWorld::Impl {
     if (RTCScene scene = known[item].load(std::memory_order_acquire)) return scene;
     const FaceScene* made = source.faces(item);
     if (!made) return nullptr;
-    known[item].store(faces_of(made), std::memory_order_release);
-    return faces_of(made);
+    known[item].store(scene_of(made), std::memory_order_release);
+    return scene_of(made);
   }
 };
 
 namespace {
+
+/// Hits of two faces of a surface that differ by less, relative to the distance, are one at the edge between
+/// them.
+constexpr float kSamePlace = 2e-6f;
 
 /// One ray on its way. The outer context goes through the top level, the inner one through the faces of an
 /// item; both are the beginning of this, so that callbacks find it.
@@ -424,7 +259,7 @@ RayWorld::RayWorld(const RayDevice& device, std::vector<WorldItem> items, ItemFa
   embree().rtcCommitGeometry(g);
   embree().rtcAttachGeometry(impl_->top, g);
   embree().rtcReleaseGeometry(g);
-  commit(impl_->top);
+  commit_scene(impl_->top);
 }
 
 RayWorld::~RayWorld() {

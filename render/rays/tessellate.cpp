@@ -141,9 +141,33 @@ bool bends(const Primitive& p, const Extent& e) {
   return !p.geometry->ruled() && e.bend > 1e-5f * e.length;
 }
 
+/// Below it, a part of the lines' lengths, a twist of a face of the probing lattice is one of rounding.
+constexpr float kLeastTwist = 1e-5f;
+
+/// Of a bilinear patch, which is all in its corners: its lines are straight, and a part of it that is a
+/// kProbes-th as long and wide is twisted by a kProbes-th of a kProbes-th.
+FaceRate measure_ruled(const Primitive& p, const RateRule& rule) {
+  std::vector<Vec3> P;
+  surface_positions(p, 2, 2, P);
+  Box box;
+  for (Vec3 corner : P)
+    box.add(corner);
+  const float length = std::max(glm::distance(P[0], P[1]), glm::distance(P[2], P[3])) +
+                       std::max(glm::distance(P[0], P[2]), glm::distance(P[1], P[3]));
+  const float twist = out_of_plane(P[0], P[1], P[2], P[3]) / (kProbes * kProbes);
+  const int twisted = twist >= kLeastTwist * length ? rule.across_twist(twist, box) : 1;
+  return {twisted, twisted};
+}
+
 } // namespace
 
 FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced, bool alone) {
+  const RateRule rule(p, camera, displaced);
+  if (!displaced && p.geometry->ruled()) {
+    FaceRate out = measure_ruled(p, rule);
+    if (alone) out.sides = {out.u, out.u, out.v, out.v};
+    return out;
+  }
   constexpr int n = kProbes + 1;
   std::vector<Vec3> P;
   surface_positions(p, n, n, P);
@@ -156,9 +180,8 @@ FaceRate measure_rate(const Primitive& p, const Camera& camera, bool displaced, 
   for (int j = 0; j < kProbes; ++j)
     for (int k = j * n; k < j * n + kProbes; ++k)
       twist = std::max(twist, out_of_plane(P[k], P[k + 1], P[k + n], P[k + n + 1]));
-  const RateRule rule(p, camera, displaced);
   FaceRate out{rule.along(u), rule.along(v)};
-  if (twist >= 1e-5f * (u.length + v.length)) {
+  if (twist >= kLeastTwist * (u.length + v.length)) {
     const int twisted = rule.across_twist(twist, u.box);
     out.u = std::max(out.u, twisted);
     out.v = std::max(out.v, twisted);

@@ -88,10 +88,13 @@ float micropolygon_in_object(const Box& bound, const PrimitiveState& state, cons
 } // namespace
 
 void Interpreter::blobby(const RequestCall& call) {
+  const auto codes = options_.named.find("blobby:codes");
+  const bool note = codes != options_.named.end() && codes->second.strings[0] == "note31";
   const auto field = BlobbyField::make(
       call.integers(1), call.numbers(2),
       [&](const std::string& text) { warn_at(call.arguments[1].where, call, text); },
-      [&](int string) { return blobby_ground(call, string); });
+      [&](int string) { return blobby_ground(call, string); },
+      note ? BlobbyField::Codes::kNote31 : BlobbyField::Codes::kSpecification);
   size_t leaves = field.leaves();
   if (call.integer(0) < 0 || static_cast<size_t>(call.integer(0)) != leaves)
     warn(call,

@@ -286,6 +286,11 @@ void Interpreter::option(const RequestCall& call) {
     auto named = named_value_of(call, category, p);
     if (!named) continue;
     const auto& [name, value] = *named;
+    if (category == "blobby" && name == "codes" && value.strings[0] != "rispec" &&
+        value.strings[0] != "note31") {
+      error(call, fmt::format("\"codes\" is \"rispec\" or \"note31\", found \"{}\"", value.strings[0]));
+      continue;
+    }
     options_.named[category + ":" + name] = value;
     if (in_world_) scene_.options.named[category + ":" + name] = value;
     if (category == "searchpath" && !value.strings.empty())

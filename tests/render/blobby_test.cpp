@@ -38,11 +38,42 @@ TEST(Blobby, leaves_and_operators) {
   EXPECT_NEAR(value({1, 2, 0, 1}), a * b, 1e-12);
   EXPECT_NEAR(value({2, 3, 0, 1, 2}), std::max({a, b, c}), 1e-12);
   EXPECT_NEAR(value({3, 3, 0, 1, 2}), std::min({a, b, c}), 1e-12);
-  EXPECT_NEAR(value({4, 0, 2}), a / c, 1e-12);
-  EXPECT_NEAR(value({5, 0, 1}), a - b, 1e-12);
+  EXPECT_NEAR(value({4, 0, 1}), a - b, 1e-12); // RISpec 3.2, table 5.3
+  EXPECT_NEAR(value({5, 0, 2}), a / c, 1e-12);
   EXPECT_NEAR(value({6, 1}), -b, 1e-12);
   EXPECT_NEAR(value({7, 1}), b, 1e-12);
-  EXPECT_NEAR(value({5, 0, 1, 0, 2, 3, 2}), a - b + c, 1e-12); // results count as operands
+  EXPECT_NEAR(value({4, 0, 1, 0, 2, 3, 2}), a - b + c, 1e-12); // results count as operands
+}
+
+TEST(Blobby, codes_of_application_note_31) {
+  glm::dvec3 p(0.3, 0.1, 0);
+  const double a = sphere(std::hypot(0.3, 0.1)), b = sphere(std::hypot(0.7, 0.1));
+  auto value = [&](int code) {
+    return BlobbyField::make(
+               std::vector<int>{1001, 0, 1001, 16, code, 0, 1}, kNumbers, [](const std::string&) {}, {},
+               BlobbyField::Codes::kNote31)
+        .at(p);
+  };
+  EXPECT_NEAR(value(4), a / b, 1e-12);
+  EXPECT_NEAR(value(5), a - b, 1e-12);
+  // A scene says which; a small sphere dents a large one where it is taken away.
+  auto area = [](const std::string& option, int code) {
+    const std::string dent =
+        "Blobby 2 [1001 0 1001 16 " + std::to_string(code) +
+        " 0 1] [2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1  1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1] [\"\"]";
+    Scene scene = scene_of(option + " WorldBegin Translate 0 0 5 " + dent + " WorldEnd");
+    Box box;
+    for (const Primitive& p : scene.primitives)
+      box.add(p.camera_bound({}));
+    return box.max.x;
+  };
+  const float plain = area("", 4);
+  EXPECT_LT(plain, 0.8f) << "the sphere reaches to 1 on the other side";
+  EXPECT_EQ(area("Option \"blobby\" \"string codes\" [\"rispec\"]", 4), plain);
+  EXPECT_EQ(area("Option \"blobby\" \"string codes\" [\"note31\"]", 5), plain);
+  EXPECT_NE(area("Option \"blobby\" \"string codes\" [\"note31\"]", 4), plain);
+  EXPECT_THAT(messages_of("Option \"blobby\" \"string codes\" [\"prman\"]"),
+              HasSubstr("Option: \"codes\" is \"rispec\" or \"note31\", found \"prman\""));
 }
 
 TEST(Blobby, a_part_of_the_field_has_the_same_values) {

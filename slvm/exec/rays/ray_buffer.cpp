@@ -1,7 +1,7 @@
 // Making rays: this is done for every ray there is, so that it goes array by array, without branches.
 #include "slvm/exec/rays/ray_buffer.h"
 
-#include "slvm/support/sample_sequence.h"
+#include "slvm/exec/rays/draw_numbers.h"
 #include "slvm/support/turn.h"
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 
 namespace slvm {
 namespace {
+
+constexpr size_t kBlock = 256; ///< rays: what loops hand on stays in the nearest cache
 
 const float* start(const PointArray& a) {
   return a.empty() ? nullptr : a.data();
@@ -97,8 +99,13 @@ void RayBuffer::draw(const RaySource& source, const SobolSample& numbers, Sample
                      size_t count, At at) {
   const uint32_t bits = numbers.bits[static_cast<size_t>(use)];
   const uint32_t* seeds = source.seeds[static_cast<size_t>(use)].data();
-  for (size_t r = 0; r < count; ++r)
-    out[r] = scrambled(bits, seeds[at(r)]);
+  uint32_t some[kBlock];
+  for (size_t from = 0; from < count; from += kBlock) {
+    const size_t n = std::min(kBlock, count - from);
+    for (size_t k = 0; k < n; ++k)
+      some[k] = seeds[at(from + k)];
+    draw_numbers(bits, some, n, out + from);
+  }
 }
 
 // A point on the sphere's part by equal areas (Archimedes: z is uniform), or on the disk below it (by
@@ -113,7 +120,6 @@ template <class At> void RayBuffer::aim(const RaySource& source, size_t first, s
   }
   if (source.cosine_of_angle.empty()) return;
   const float *turn = turn_.data() + first, *radius = radius_.data() + first;
-  constexpr size_t kBlock = 256; // stays in the nearest cache between the loops
   float x[kBlock], y[kBlock], z[kBlock];
   for (size_t from = 0; from < count; from += kBlock) {
     const size_t n = std::min(kBlock, count - from);

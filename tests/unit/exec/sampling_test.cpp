@@ -2,11 +2,13 @@
 // points, calls and grids.
 #include "tests/unit/exec/ray_scene.h"
 
+#include "slvm/exec/rays/draw_numbers.h"
 #include "slvm/support/sample_sequence.h"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <random>
 
 namespace slvm {
 namespace {
@@ -215,6 +217,21 @@ TEST(Sampling, MeansFallFasterThanChance) {
   };
   EXPECT_LT(error(256), 0.45 * error(16) / 4 * 1.6); // chance: error(16) / 4
   EXPECT_GT(error(1), 0.3);
+}
+
+TEST(Sampling, NumbersOfManyPointsAreThoseOfEach) {
+  std::mt19937 random(5);
+  for (const size_t count : {0, 1, 7, 8, 255, 256, 1000}) {
+    std::vector<uint32_t> seeds(count);
+    for (uint32_t& seed : seeds)
+      seed = static_cast<uint32_t>(random());
+    const auto bits = static_cast<uint32_t>(random());
+    std::vector<float> numbers(count + 1, -1.0f);
+    draw_numbers(bits, seeds.data(), count, numbers.data());
+    for (size_t i = 0; i < count; ++i)
+      EXPECT_EQ(numbers[i], scrambled(bits, seeds[i])) << i;
+    EXPECT_EQ(numbers[count], -1) << "no further";
+  }
 }
 
 } // namespace

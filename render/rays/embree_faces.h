@@ -1,0 +1,46 @@
+// What is behind embree_world.h: the device, and what its two parts (embree_faces.cpp, embree_world.cpp)
+// share.
+#pragma once
+
+#include "render/rays/embree_library.h"
+#include "render/rays/embree_world.h"
+
+#include <atomic>
+#include <mutex>
+
+namespace render {
+
+struct RayDevice::Impl {
+  ~Impl() {
+    if (device) embree().rtcReleaseDevice(device);
+  }
+  /// Made at the first call: it takes a thirtieth of the time of a small picture, even when there is nothing
+  /// for rays in it. Null: there is a problem.
+  RTCDevice get() {
+    std::call_once(made, [this] {
+      problem = embree().problem;
+      if (!problem.empty()) return;
+      device = embree().rtcNewDevice(nullptr);
+      auto count = [](void* user, ssize_t size, bool) {
+        static_cast<Impl*>(user)->bytes.fetch_add(size, std::memory_order_relaxed);
+        return true;
+      };
+      embree().rtcSetDeviceMemoryMonitorFunction(device, count, this);
+    });
+    return device;
+  }
+
+  std::once_flag made;
+  RTCDevice device = nullptr;
+  std::string problem;
+  std::atomic<int64_t> bytes{0};
+};
+
+/// The scene of what RayDevice::build() made.
+RTCScene scene_of(const FaceScene* faces);
+
+/// Builds run on all processors; while this thread waits for them it must not take up other work of the
+/// renderer, which could wait for what is being built here.
+void commit_scene(RTCScene scene);
+
+} // namespace render
