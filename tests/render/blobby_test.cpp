@@ -57,21 +57,23 @@ TEST(Blobby, codes_of_application_note_31) {
   EXPECT_NEAR(value(4), a / b, 1e-12);
   EXPECT_NEAR(value(5), a - b, 1e-12);
   // A scene says which; a small sphere dents a large one where it is taken away.
-  auto area = [](const std::string& option, int code) {
+  auto reach = [](const std::string& option, int code) {
     const std::string dent =
         "Blobby 2 [1001 0 1001 16 " + std::to_string(code) +
         " 0 1] [2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1  1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 1] [\"\"]";
-    Scene scene = scene_of(option + " WorldBegin Translate 0 0 5 " + dent + " WorldEnd");
+    const Rendered r =
+        render_text("Format 4 4 1 " + option + " WorldBegin Translate 0 0 5 " + dent + " WorldEnd");
+    EXPECT_EQ(r.messages, "");
     Box box;
-    for (const Primitive& p : scene.primitives)
-      box.add(p.camera_bound({}));
+    for (const Primitive& piece : r.scene.primitives)
+      box.add(piece.camera_bound({}));
     return box.max.x;
   };
-  const float plain = area("", 4);
+  const float plain = reach("", 4);
   EXPECT_LT(plain, 0.8f) << "the sphere reaches to 1 on the other side";
-  EXPECT_EQ(area("Option \"blobby\" \"string codes\" [\"rispec\"]", 4), plain);
-  EXPECT_EQ(area("Option \"blobby\" \"string codes\" [\"note31\"]", 5), plain);
-  EXPECT_NE(area("Option \"blobby\" \"string codes\" [\"note31\"]", 4), plain);
+  EXPECT_EQ(reach("Option \"blobby\" \"string codes\" [\"rispec\"]", 4), plain);
+  EXPECT_EQ(reach("Option \"blobby\" \"string codes\" [\"note31\"]", 5), plain);
+  EXPECT_NE(reach("Option \"blobby\" \"string codes\" [\"note31\"]", 4), plain);
   EXPECT_THAT(messages_of("Option \"blobby\" \"string codes\" [\"prman\"]"),
               HasSubstr("Option: \"codes\" is \"rispec\" or \"note31\", found \"prman\""));
 }

@@ -23,6 +23,7 @@ std::string request_with(const ParameterInfo& p) {
   if (width == 0)
     value = p.name == "filter"            ? "\"box\""
             : p.name == "sense"           ? "\"outside\""
+            : p.name == "codes"           ? "\"note31\""
             : p.name.ends_with("hitmode") ? "\"primitive\""
             : p.name == "filemode"        ? "\"rw\""
             : p.name == "shadingmodel"    ? "\"glass\""
