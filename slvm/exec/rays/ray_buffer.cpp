@@ -1,7 +1,7 @@
 // Making rays: this is done for every ray there is, so that it goes array by array, without branches.
 #include "slvm/exec/rays/ray_buffer.h"
 
-#include "slvm/exec/rays/draw_numbers.h"
+#include "slvm/kernels/draw_numbers.h"
 #include "slvm/support/turn.h"
 
 #include <algorithm>

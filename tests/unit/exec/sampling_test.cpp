@@ -2,7 +2,7 @@
 // points, calls and grids.
 #include "tests/unit/exec/ray_scene.h"
 
-#include "slvm/exec/rays/draw_numbers.h"
+#include "slvm/kernels/draw_numbers.h"
 #include "slvm/support/sample_sequence.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "slvm/exec/rays/draw_numbers.h"
+#include "slvm/kernels/draw_numbers.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "slvm/exec/rays/draw_numbers.cpp"
+#define HWY_TARGET_INCLUDE "slvm/kernels/draw_numbers.cpp"
 #include <hwy/foreach_target.h>
 
 #include "slvm/support/sample_sequence.h"
