@@ -133,7 +133,7 @@ TEST_F(RiErrors, counts) {
             "43 2: RiPatchMesh: nu is 3; a bicubic mesh has at least 4");
   EXPECT_EQ(both([&] { RiPatchMesh(RI_BICUBIC, 4, "wrapped", 4, RI_PERIODIC, RI_NULL); }),
             "43 2: RiPatchMesh: unknown wrap \"wrapped\"; expected \"periodic\" or \"nonperiodic\"");
-  RtFloat knots[4] = {};
+  RtFloat knots[6] = {}; // points and order together
   EXPECT_EQ(both([&] { RiNuPatch(2, 4, knots, 0, 1, 2, 2, knots, 0, 1, RI_NULL); }),
             "43 2: RiNuPatch: 2 points are too few for order 4");
   EXPECT_EQ(both([&] { RiNuPatch(2, 2, nullptr, 0, 1, 2, 2, knots, 0, 1, RI_NULL); }),
