@@ -40,6 +40,7 @@ struct Renderer::Impl {
           end_plugins();
         }) {
     interpreter.override_options = settings.override_options;
+    interpreter.wants_frame = settings.wants_frame;
     interpreter.allow_programs = settings.allow_programs;
     interpreter.program_limits.seconds = settings.program_seconds;
     interpreter.procedural_folders = settings.procedural_folders;

@@ -37,6 +37,8 @@ struct RendererSettings {
   std::vector<std::string> procedural_folders;
   std::function<void(slvm::SourceRange procedural, const std::function<void()>& functions)> around_plug_in;
   ShaderLoader shader_loader = load_compiled_shader;
+  /// Interpreter::wants_frame.
+  std::function<bool(int)> wants_frame;
   /// Called with each frame's options at WorldBegin, after the file's own: command-line overrides.
   std::function<void(Options&)> override_options;
   /// Called before and during a frame with the finished fraction; never from two threads at once.

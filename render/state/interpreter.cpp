@@ -84,7 +84,7 @@ Interpreter::Handler Interpreter::handler(RequestId id) {
 }
 
 void Interpreter::request(const RequestCall& call) {
-  if (stopped(call) || record(call) || skipped(call)) return;
+  if (stopped(call) || in_unwanted_frame(call) || record(call) || skipped(call)) return;
   if (auto substituted = substitute(call))
     carry_out(*substituted);
   else
@@ -132,6 +132,9 @@ void Interpreter::finish() {
                                    recording_.name, request_info(recording_.end).name));
   for (const Block& b : blocks_)
     diagnostics_.error(b.where, "this block is not closed before the end of the file");
+  if (unwanted_frame_)
+    diagnostics_.error(*unwanted_frame_,
+                       "this block, which is left out, is not closed before the end of the file");
   if (recording_.depth > 0 || !blocks_.empty()) error_kind_ = RiError::kNesting;
   if (in_world_) diagnostics_.error(blocks_.front().where, "nothing is rendered: WorldEnd is missing");
 }

@@ -58,6 +58,8 @@ public:
   std::function<std::string(const RequestCall&, const Options&)> make_map;
   /// Called with the options at each WorldBegin: command-line overrides.
   std::function<void(Options&)> override_options;
+  /// Whether the frame of this number is wanted; what stands in others is not carried out. Null: all are.
+  std::function<bool(int)> wants_frame;
   /// Requests archives and instances may repeat in all. A few levels that each read the next one ten times
   /// are harmless; a row of levels that each read the next one twice never ends.
   size_t most_replayed = 100'000'000;
@@ -155,6 +157,7 @@ private:
   void no_parameter(const RequestCall&, const Param&);
   bool legal(const RequestCall&);
   bool skipped(const RequestCall&);
+  bool in_unwanted_frame(const RequestCall&);
   bool record(const RequestCall&);
   void carry_out(const RequestCall&);
   bool stopped(const RequestCall&);
@@ -354,6 +357,7 @@ private:
   int inline_depth_ = 0; ///< of inline archives among them
   size_t replayed_ = 0;  ///< requests that came from archives and instances
   bool stopped_ = false; ///< what follows is not carried out
+  std::optional<slvm::SourceRange> unwanted_frame_; ///< where the frame begins that is left out
   enum class ErrorHandling : uint8_t { kIgnore, kPrint, kAbort };
   ErrorHandling error_handler_ = ErrorHandling::kPrint;
   RiError error_kind_ = RiError::kNone;

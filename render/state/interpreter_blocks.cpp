@@ -54,6 +54,18 @@ bool Interpreter::close(const RequestCall& call, BlockKind kind) {
   return true;
 }
 
+/// True from the beginning to the end of a frame that is left out.
+bool Interpreter::in_unwanted_frame(const RequestCall& call) {
+  if (unwanted_frame_) {
+    if (call.id == RequestId::kFrameEnd) unwanted_frame_.reset();
+    return true;
+  }
+  if (call.id != RequestId::kFrameBegin || !wants_frame || recording() || in_world_) return false;
+  if (wants_frame(call.integer(0))) return false;
+  unwanted_frame_ = call.where;
+  return true;
+}
+
 void Interpreter::frame_begin(const RequestCall& call) {
   open(call, BlockKind::kFrame);
   blocks_.back().options = options_;

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
 #include <cstdlib>
 #include <iostream>
 #include <string_view>
@@ -17,34 +18,22 @@ namespace render::tools {
 
 namespace {
 
-constexpr std::string_view kLongNames[] = {"help",
-                                           "version",
-                                           "progress",
-                                           "Progress",
-                                           "progressformat",
-                                           "crop",
-                                           "res",
-                                           "cwd",
-                                           "shaders",
-                                           "archives",
-                                           "threads",
-                                           "verbose",
-                                           "nowarn",
-                                           "Werror",
-                                           "preview",
-                                           "procedurals",
-                                           "dso",
-                                           "allow-programs",
-                                           "program-timeout",
-                                           "statistics",
-                                           "statisticsfile"};
+constexpr std::string_view kLongNames[] = {"help",       "version",        "progress",
+                                           "Progress",   "progressformat", "crop",
+                                           "frames",     "framelist",      "res",
+                                           "cwd",        "shaders",        "archives",
+                                           "threads",    "verbose",        "nowarn",
+                                           "Werror",     "preview",        "procedurals",
+                                           "dso",        "allow-programs", "program-timeout",
+                                           "statistics", "statisticsfile"};
 
-/// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4".
+/// "-progress" as users of other renderers write it becomes "--progress", "-t:4" "--threads=4", and so does
+/// "-p:4", the processes of older releases.
 std::vector<std::string> normalise(int argc, char** argv) {
   std::vector<std::string> out;
   for (int i = 1; i < argc; ++i) {
     std::string a = argv[i];
-    if (a.starts_with("-t:")) {
+    if (a.starts_with("-t:") || a.starts_with("-p:")) {
       out.push_back("--threads=" + a.substr(3));
       continue;
     }
@@ -70,6 +59,26 @@ std::optional<int> thread_count(const std::string& text) {
   if (text.empty() || *end != '\0' || n > 4096 || n < -4096) return {};
   if (n >= 0) return static_cast<int>(n);
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) + static_cast<int>(n));
+}
+
+/// "1,3-5": single numbers and ranges, appended. False: it is no such list.
+bool add_frames(std::string_view list, std::vector<std::array<int, 2>>& frames) {
+  for (size_t from = 0; from <= list.size();) {
+    const size_t end = std::min(list.find(',', from), list.size());
+    const std::string_view part = list.substr(from, end - from);
+    std::array<int, 2> range{};
+    auto [first_end, wrong] = std::from_chars(part.begin(), part.end(), range[0]);
+    range[1] = range[0];
+    if (wrong == std::errc() && first_end != part.end() && *first_end == '-') {
+      const auto second = std::from_chars(first_end + 1, part.end(), range[1]);
+      first_end = second.ptr;
+      wrong = second.ec;
+    }
+    if (wrong != std::errc() || first_end != part.end() || range[0] > range[1]) return false;
+    frames.push_back(range);
+    from = end + 1;
+  }
+  return true;
 }
 
 /// Search paths as they are given.
@@ -112,7 +121,8 @@ Arguments parse_arguments(int argc, char** argv) {
   Places places;
   bool updating = false, lines = false;
   std::vector<float> crop;
-  std::vector<int> resolution;
+  std::vector<int> resolution, frames;
+  std::string frame_list;
   app.add_option("files", out.files,
                  "RIB files, read one after the other with shared state; standard input when none, or for -");
   app.add_flag("--progress", updating, "show progress on one line that is updated");
@@ -120,13 +130,17 @@ Arguments parse_arguments(int argc, char** argv) {
   app.add_option("--progressformat", out.progress_format,
                  "form of the progress lines; {:3.0f} is the percentage");
   app.add_option("-t,--threads", threads,
-                 "-t:N threads; -t:0 or -t:all for all processors, -t:-N for all but N");
+                 "-t:N threads; -t:0 or -t:all for all processors, -t:-N for all but N; -p:N is the same");
   app.add_option("--crop", crop, "render part of the frame: xmin xmax ymin ymax, from 0 to 1")
       ->expected(4)
       ->allow_extra_args(false);
   app.add_option("--res", resolution, "resolution: width and height in pixels")
       ->expected(2)
       ->allow_extra_args(false);
+  app.add_option("--frames", frames, "render only the frames with numbers from the first to the second")
+      ->expected(2)
+      ->allow_extra_args(false);
+  app.add_option("--framelist", frame_list, "render only these frames: numbers and ranges, as in 1,3-5");
   app.add_option(
       "-d,--display", out.display,
       "where the first Display goes: a file name such as out.png or ./out, or a type such as openexr");
@@ -160,6 +174,12 @@ Arguments parse_arguments(int argc, char** argv) {
       throw CLI::ValidationError("-res", "expected two positive numbers");
     if (crop.size() == 4 && (crop[0] >= crop[1] || crop[2] >= crop[3]))
       throw CLI::ValidationError("-crop", "expected xmin < xmax and ymin < ymax");
+    if (frames.size() == 2) out.frames.push_back({frames[0], frames[1]});
+    if (frames.size() == 2 && frames[0] > frames[1])
+      throw CLI::ValidationError("-frames", "expected the number of the first frame, and of the last");
+    if (!frame_list.empty() && !add_frames(frame_list, out.frames))
+      throw CLI::ValidationError("-framelist",
+                                 "expected numbers and ranges such as 1,3-5, found \"" + frame_list + "\"");
   } catch (const CLI::ParseError& e) {
     int status = app.exit(e);
     out.exit_status = status == 0 ? 0 : 2;

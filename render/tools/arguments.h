@@ -18,6 +18,8 @@ struct Arguments {
   std::string progress_format = "R90000 {:3.0f}%";
   std::optional<std::array<float, 4>> crop;
   std::optional<std::array<int, 2>> resolution;
+  /// Numbers of the frames that are rendered, from the first to the second of each pair; none: all.
+  std::vector<std::array<int, 2>> frames;
   std::string display; ///< a file name or a Display type
   std::string directory;
   std::vector<std::string> shader_path, archive_path;

@@ -121,6 +121,13 @@ int run(const Arguments& arguments) {
       "slrender", [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); },
       arguments.plugin_folders);
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
+  bool any_frame = false;
+  if (!arguments.frames.empty())
+    settings.wants_frame = [&](int number) {
+      for (const auto& [first, last] : arguments.frames)
+        if (number >= first && number <= last) return any_frame = true;
+      return false;
+    };
   settings.flush_messages = [&] { messages.flush(); };
   settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
   std::string statistics;
@@ -163,6 +170,11 @@ int run(const Arguments& arguments) {
       fmt::print(stderr, "slrender: error: cannot write \"{}\": {}\n", arguments.statistics_file, why);
       return kMissingFile;
     }
+  }
+  if (!arguments.frames.empty() && !any_frame && !missing) {
+    fmt::print(stderr,
+               "slrender: error: no frame has one of the numbers asked for with -frames or -framelist\n");
+    return kWrongInput;
   }
   if (missing) return kMissingFile;
   return messages.failed ? kWrongInput : kFine;

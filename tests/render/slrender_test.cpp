@@ -208,6 +208,50 @@ TEST_F(SlrenderTest, command_line_beats_the_file) {
   EXPECT_EQ(run("-cwd . -t:1 sub.rib").status, 0);
 }
 
+TEST_F(SlrenderTest, some_frames_of_a_file) {
+  std::string scene = "Format 4 4 1\n";
+  for (int i = 1; i <= 6; ++i)
+    scene += fmt::format(
+        "FrameBegin {0}\nDisplay \"f{0}.png\" \"png\" \"rgb\"\nWorldBegin\nWorldEnd\nFrameEnd\n", i);
+  // What stands in no frame is made whatever frames are wanted, and a frame left out leaves nothing behind.
+  file("a.rib", scene + "Display \"last.png\" \"png\" \"rgb\"\nWorldBegin\nWorldEnd\n");
+  auto made = [&](const std::string& arguments) {
+    std::string names;
+    for (int i = 1; i <= 6; ++i)
+      fs::remove(directory_ / fmt::format("f{}.png", i));
+    fs::remove(directory_ / "last.png");
+    const Outcome o = run(arguments + " a.rib");
+    for (int i = 1; i <= 6; ++i)
+      if (exists(fmt::format("f{}.png", i))) names += std::to_string(i);
+    return fmt::format("{}{}{} {}", names, exists("last.png") ? "+" : "", o.text.empty() ? "" : " " + o.text,
+                       o.status);
+  };
+  EXPECT_EQ(made(""), "123456+ 0");
+  EXPECT_EQ(made("-frames 2 4"), "234+ 0");
+  EXPECT_EQ(made("--frames 6 9"), "6+ 0");
+  EXPECT_EQ(made("-framelist 1,3-5"), "1345+ 0");
+  EXPECT_EQ(made("-p:1 -framelist 6"), "6+ 0");
+  EXPECT_EQ(made("--framelist=2 -frames 4 4"), "24+ 0");
+  EXPECT_EQ(made("-frames 7 9"),
+            "+ slrender: error: no frame has one of the numbers asked for with -frames or -framelist\n 1");
+  for (const char* wrong : {"1,", "x", "3-", "5-3", "1;2", ",1", "1-2-3"}) {
+    const Outcome o = run(fmt::format("-framelist '{}' a.rib", wrong));
+    EXPECT_EQ(o.status, 2) << wrong;
+    EXPECT_THAT(o.text, HasSubstr("-framelist: expected numbers and ranges such as 1,3-5, found \"" +
+                                  std::string(wrong) + "\""));
+  }
+  EXPECT_THAT(run("-frames 4 2 a.rib").text,
+              HasSubstr("-frames: expected the number of the first frame, and of the last"));
+  // Blocks and conditions of frames left out are not even looked at; an open one is told.
+  file("b.rib", "FrameBegin 1\nIfBegin \"]]\"\nArchiveBegin \"x\"\nFrameEnd\n" + std::string(kScene) +
+                    "FrameBegin 2\nFrameEnd\nFrameBegin 3\n");
+  const Outcome open = run("-frames 2 2 b.rib");
+  EXPECT_THAT(open.text,
+              HasSubstr("b.rib:13:1: error: this block, which is left out, is not closed before the end"));
+  EXPECT_EQ(open.text.find("b.rib:2"), std::string::npos) << open.text;
+  EXPECT_TRUE(exists("a.png"));
+}
+
 TEST_F(SlrenderTest, progress_for_people_and_farms) {
   file("a.rib", kScene);
   EXPECT_THAT(run("-Progress a.rib").text, HasSubstr("R90000 100%\n"));
