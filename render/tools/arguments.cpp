@@ -110,6 +110,43 @@ void take_places(const Places& places, Arguments& out) {
   out.plugin_folders = slvm::plugin_folders(places.plugins);
 }
 
+/// What of the scenes is rendered, as it is given.
+struct Parts {
+  std::vector<float> crop;
+  std::vector<int> resolution, frames;
+  std::string frame_list;
+};
+
+void add_parts(CLI::App& app, Parts& parts) {
+  app.add_option("--crop", parts.crop, "render part of the frame: xmin xmax ymin ymax, from 0 to 1")
+      ->expected(4)
+      ->allow_extra_args(false);
+  app.add_option("--res", parts.resolution, "resolution: width and height in pixels")
+      ->expected(2)
+      ->allow_extra_args(false);
+  app.add_option("--frames", parts.frames, "render only the frames with numbers from the first to the second")
+      ->expected(2)
+      ->allow_extra_args(false);
+  app.add_option("--framelist", parts.frame_list,
+                 "render only these frames: numbers and ranges, as in 1,3-5");
+}
+
+/// Throws usage errors.
+void take_parts(const Parts& parts, Arguments& out) {
+  if (parts.resolution.size() == 2 && (parts.resolution[0] < 1 || parts.resolution[1] < 1))
+    throw CLI::ValidationError("-res", "expected two positive numbers");
+  if (parts.crop.size() == 4 && (parts.crop[0] >= parts.crop[1] || parts.crop[2] >= parts.crop[3]))
+    throw CLI::ValidationError("-crop", "expected xmin < xmax and ymin < ymax");
+  if (parts.frames.size() == 2) out.frames.push_back({parts.frames[0], parts.frames[1]});
+  if (parts.frames.size() == 2 && parts.frames[0] > parts.frames[1])
+    throw CLI::ValidationError("-frames", "expected the number of the first frame, and of the last");
+  if (!parts.frame_list.empty() && !add_frames(parts.frame_list, out.frames))
+    throw CLI::ValidationError("-framelist", "expected numbers and ranges such as 1,3-5, found \"" +
+                                                 parts.frame_list + "\"");
+  if (parts.crop.size() == 4) out.crop = {parts.crop[0], parts.crop[1], parts.crop[2], parts.crop[3]};
+  if (parts.resolution.size() == 2) out.resolution = {parts.resolution[0], parts.resolution[1]};
+}
+
 } // namespace
 
 Arguments parse_arguments(int argc, char** argv) {
@@ -120,9 +157,7 @@ Arguments parse_arguments(int argc, char** argv) {
   std::string threads = "all";
   Places places;
   bool updating = false, lines = false;
-  std::vector<float> crop;
-  std::vector<int> resolution, frames;
-  std::string frame_list;
+  Parts parts;
   app.add_option("files", out.files,
                  "RIB files, read one after the other with shared state; standard input when none, or for -");
   app.add_flag("--progress", updating, "show progress on one line that is updated");
@@ -131,16 +166,7 @@ Arguments parse_arguments(int argc, char** argv) {
                  "form of the progress lines; {:3.0f} is the percentage");
   app.add_option("-t,--threads", threads,
                  "-t:N threads; -t:0 or -t:all for all processors, -t:-N for all but N; -p:N is the same");
-  app.add_option("--crop", crop, "render part of the frame: xmin xmax ymin ymax, from 0 to 1")
-      ->expected(4)
-      ->allow_extra_args(false);
-  app.add_option("--res", resolution, "resolution: width and height in pixels")
-      ->expected(2)
-      ->allow_extra_args(false);
-  app.add_option("--frames", frames, "render only the frames with numbers from the first to the second")
-      ->expected(2)
-      ->allow_extra_args(false);
-  app.add_option("--framelist", frame_list, "render only these frames: numbers and ranges, as in 1,3-5");
+  add_parts(app, parts);
   app.add_option(
       "-d,--display", out.display,
       "where the first Display goes: a file name such as out.png or ./out, or a type such as openexr");
@@ -170,16 +196,7 @@ Arguments parse_arguments(int argc, char** argv) {
     auto count = thread_count(threads);
     if (!count) throw CLI::ValidationError("-t", "expected a number or all, found \"" + threads + "\"");
     out.threads = *count;
-    if (resolution.size() == 2 && (resolution[0] < 1 || resolution[1] < 1))
-      throw CLI::ValidationError("-res", "expected two positive numbers");
-    if (crop.size() == 4 && (crop[0] >= crop[1] || crop[2] >= crop[3]))
-      throw CLI::ValidationError("-crop", "expected xmin < xmax and ymin < ymax");
-    if (frames.size() == 2) out.frames.push_back({frames[0], frames[1]});
-    if (frames.size() == 2 && frames[0] > frames[1])
-      throw CLI::ValidationError("-frames", "expected the number of the first frame, and of the last");
-    if (!frame_list.empty() && !add_frames(frame_list, out.frames))
-      throw CLI::ValidationError("-framelist",
-                                 "expected numbers and ranges such as 1,3-5, found \"" + frame_list + "\"");
+    take_parts(parts, out);
   } catch (const CLI::ParseError& e) {
     int status = app.exit(e);
     out.exit_status = status == 0 ? 0 : 2;
@@ -189,8 +206,6 @@ Arguments parse_arguments(int argc, char** argv) {
     out.progress = ProgressStyle::kLines;
   else if (updating)
     out.progress = ProgressStyle::kUpdating;
-  if (crop.size() == 4) out.crop = {crop[0], crop[1], crop[2], crop[3]};
-  if (resolution.size() == 2) out.resolution = {resolution[0], resolution[1]};
   if (out.files.empty()) out.files.emplace_back("-");
   take_places(places, out);
   return out;

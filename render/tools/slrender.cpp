@@ -78,6 +78,22 @@ private:
   int last_ = -1;
 };
 
+/// Which frames are rendered, and whether there was one of them.
+class WantedFrames {
+public:
+  explicit WantedFrames(const Arguments& arguments) : ranges_(arguments.frames) {}
+  bool has(int number) {
+    for (const auto& [first, last] : ranges_)
+      if (number >= first && number <= last) return any_ = true;
+    return false;
+  }
+  bool any() const { return any_; }
+
+private:
+  const std::vector<std::array<int, 2>>& ranges_;
+  bool any_ = false;
+};
+
 void override_options(const Arguments& arguments, render::Options& options) {
   if (arguments.resolution) {
     options.xres = (*arguments.resolution)[0];
@@ -121,13 +137,8 @@ int run(const Arguments& arguments) {
       "slrender", [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); },
       arguments.plugin_folders);
   settings.override_options = [&](render::Options& o) { override_options(arguments, o); };
-  bool any_frame = false;
-  if (!arguments.frames.empty())
-    settings.wants_frame = [&](int number) {
-      for (const auto& [first, last] : arguments.frames)
-        if (number >= first && number <= last) return any_frame = true;
-      return false;
-    };
+  WantedFrames wanted(arguments);
+  if (!arguments.frames.empty()) settings.wants_frame = [&](int number) { return wanted.has(number); };
   settings.flush_messages = [&] { messages.flush(); };
   settings.print = [](std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); };
   std::string statistics;
@@ -171,7 +182,7 @@ int run(const Arguments& arguments) {
       return kMissingFile;
     }
   }
-  if (!arguments.frames.empty() && !any_frame && !missing) {
+  if (!arguments.frames.empty() && !wanted.any() && !missing) {
     fmt::print(stderr,
                "slrender: error: no frame has one of the numbers asked for with -frames or -framelist\n");
     return kWrongInput;
