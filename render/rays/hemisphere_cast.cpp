@@ -4,7 +4,6 @@
 namespace render {
 
 void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays) {
-  tracer_.hemisphere_rays_ += rays.size();
   slvm::RayOptions options = query_.rays;
   options.wants_distance = !only_blocked();
   slvm::RayBatch batch;
@@ -35,9 +34,9 @@ void HemisphereSampler::cast(std::span<const HemispherePoint> points, Rays& rays
   batch.point = rays.point.data();
   batch.sample = rays.sample.data();
   rays.distance.resize(rays.size());
-  tracer_.trace_by(shooter_, options, batch, {&light, wants_light_ ? size_t{1} : size_t{0}},
-                   rays.distance.data(), nullptr);
-  tracer_.rays_ -= rays.size();
+  tracer_.hemisphere_rays_ +=
+      tracer_.trace_by(shooter_, options, batch, {&light, wants_light_ ? size_t{1} : size_t{0}},
+                       rays.distance.data(), nullptr);
   for (size_t i = 0; i < rays.size(); ++i) {
     const size_t cell = rays.cell[i];
     const float d = rays.distance[i] == slvm::kNotShot ? kInfinity : rays.distance[i];

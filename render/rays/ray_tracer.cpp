@@ -128,15 +128,15 @@ std::vector<Color> RayTracer::weights(const Shooter& shooter, const slvm::RayBat
 void RayTracer::trace(const slvm::ShadingState& state, const slvm::RayOptions& options,
                       const slvm::RayBatch& batch, std::span<const slvm::RayOutput> outputs, float* distance,
                       slvm::RayCursor* cursors) {
-  trace_by(shooter(state, options), options, batch, outputs, distance, cursors);
+  rays_ += trace_by(shooter(state, options), options, batch, outputs, distance, cursors);
 }
 
-void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, const slvm::RayBatch& batch,
-                         std::span<const slvm::RayOutput> outputs, float* distance,
-                         slvm::RayCursor* cursors) {
+size_t RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, const slvm::RayBatch& batch,
+                           std::span<const slvm::RayOutput> outputs, float* distance,
+                           slvm::RayCursor* cursors) {
   if (!by.may_shoot || batch.count == 0) {
     std::fill_n(distance, batch.count, slvm::kNotShot);
-    return;
+    return 0;
   }
   RayGeometry& g = geometry();
   const RayRule rule = g.rule(options.kind, options.subset, options.sides);
@@ -181,13 +181,13 @@ void RayTracer::trace_by(const Shooter& by, const slvm::RayOptions& options, con
     }
     place_hits();
   }
-  rays_ += shot;
   g.trim();
   uint64_t seed = hash_of(static_cast<int64_t>(by.seed), options.seed, kHits);
   seed = hash_of(static_cast<int64_t>(seed), static_cast<int64_t>(by.number(batch, 0)), kHits);
   hits_.shade(hits, {by.state, {batch, weight}, options.kind, options.mode, options.shades, by.next, seed},
               outputs);
   hits_.give_back(std::move(hits));
+  return shot;
 }
 
 std::string RayTracer::problem() const {

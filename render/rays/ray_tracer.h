@@ -56,8 +56,9 @@ private:
   /// Made by the first ray.
   RayGeometry& geometry();
   Shooter shooter(const slvm::ShadingState& state, const slvm::RayOptions& options) const;
-  void trace_by(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
-                std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors);
+  /// The number of rays shot, which is not counted here.
+  size_t trace_by(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&,
+                  std::span<const slvm::RayOutput> outputs, float* distance, slvm::RayCursor* cursors);
   RaySegment segment(const Shooter&, const slvm::RayOptions&, const slvm::RayBatch&, size_t ray) const;
   HitRay hit_ray(const Shooter&, const slvm::RayBatch&, size_t ray, float time, const RayHit&);
   /// Parts of the picture that rays make; empty: all of it.

@@ -74,8 +74,7 @@ void find_places(const Directions& d, TextureRegions& out) {
     hn::Store(hn::Add(hn::Sub(number(0.5f), latitude), lower), kWide, out.t + i);
     hn::Store(hn::IfThenElseZero(hn::Gt(sblur, zero), hn::Min(hn::Mul(sblur, stretch), hn::Max(sblur, one))),
               kWide, out.sblur + i);
-    // The filter's usual long regions have room for some of it.
-    hn::Store(hn::Mul(stretch, number(0.125f)), kWide, out.stretch + i);
+    hn::Store(stretch, kWide, out.stretch + i);
   }
 }
 

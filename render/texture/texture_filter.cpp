@@ -78,9 +78,9 @@ void find_places(const TextureRegions& r, const TextureFilter::Limits& limits, T
     hn::Store(hn::Div(hn::Mul(y, scale), height), kWide, out.t + i);
     hn::Store(longest, kWide, out.longest + i);
 
-    const V places =
-        hn::Min(hn::Mul(hn::Max(hn::Load(kWide, r.stretch + i), one), number(limits.most_places)),
-                number(limits.most_stretched));
+    // Up to half of the usual number of places a stretch needs no more of them.
+    const V more = hn::Max(hn::Mul(hn::Load(kWide, r.stretch + i), number(0.125f)), one);
+    const V places = hn::Min(hn::Mul(more, number(limits.most_places)), number(limits.most_stretched));
     const V texel = hn::Max(hn::Max(hn::Div(shortest, number(kSpread)), hn::Div(longest, places)), one);
     const V level = hn::Min(hn::Max(hn::Log2(kWide, texel), zero), number(limits.last_level));
     V lower = hn::Floor(limits.between_levels ? level : hn::Add(level, half));

@@ -18,7 +18,7 @@ struct TextureRegions {
   using Lanes = LookupLanes;
 
   alignas(64) Lanes s = {}, t = {}, s_u = {}, t_u = {}, s_v = {}, t_v = {}, sblur = {}, tblur = {};
-  alignas(64) Lanes stretch = {}; ///< so many times longer than elsewhere are regions here, if more than 1
+  alignas(64) Lanes stretch = {}; ///< of all regions at this place, along s; 0: there is none
 };
 
 /// How texels of a level are put together at a place.
