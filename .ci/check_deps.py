@@ -44,7 +44,7 @@ ALLOWED = {
     # Constant folding computes with the kernels: the tool hands them to the library.
     "slc/tools": ["slc", "slvm"],
     "render": ["public", "stdlib/scattering", "stdlib/subsurface/octree", "stdlib/subsurface/vec3", "render/hider/quad_coverage",
-               "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights", "render/rays/hemisphere_aim",
+               "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights", "render/display/quantize_row", "render/rays/hemisphere_aim",
                "render/texture/latlong", "render/texture/shadow_map", "render/texture/texture_filter", "render/texture/wide_block"],
     # Compiled once for each SIMD target.
     "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
@@ -79,7 +79,7 @@ OUTSIDE = {
     r"boost/": ["slc/preprocess"],
     r"flatbuffers/": ["slvm/format"],
     r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_coverage", "render/hider/quad_hits", "render/hider/quad_paint",
-             "render/hider/window_weights", "render/rays/hemisphere_aim", "render/texture/latlong", "render/texture/shadow_map", "render/texture/texture_filter", "render/texture/wide_block", "stdlib/subsurface/dipole_block", "tests/bench", "tests/unit/kernels"],
+             "render/hider/window_weights", "render/display/quantize_row", "render/rays/hemisphere_aim", "render/texture/latlong", "render/texture/shadow_map", "render/texture/texture_filter", "render/texture/wide_block", "stdlib/subsurface/dipole_block", "tests/bench", "tests/unit/kernels"],
     r"sleef": ["slvm/wide", "slvm/kernels", "tests/unit/kernels"],
     r"opensubdiv/": ["render/prims"],
     r"CLI/": ["slc/tools", "slvm/tools", "render/tools", "stdlib/tools"],

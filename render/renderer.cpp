@@ -172,10 +172,11 @@ namespace {
 
 /// Why the picture cannot be held, or nothing: rather now than after hours, or with the machine brought to a
 /// halt.
-std::string too_large(const Options& options, const std::vector<AovChannel>& aovs) {
+std::string too_large(const Options& options, const FrameSettings& settings) {
   const PixelRect crop = Camera(options).crop();
   const double samples = options.subpixel ? options.xsamples * options.ysamples : 1;
-  const int floats = aovs.empty() ? Image::kAov : Image::kAov + aovs.back().first + aovs.back().components;
+  auto floats = static_cast<double>(settings.shown.count());
+  if (!settings.aovs.empty()) floats += settings.aovs.back().first + settings.aovs.back().components;
   const double bytes = samples * crop.width() * crop.height() * floats * sizeof(float);
   const double memory =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
@@ -195,6 +196,7 @@ void Renderer::Impl::render(Scene& frame) {
   FrameSettings s;
   s.threads = settings.threads > 0 ? settings.threads : frame.options.threads;
   s.aovs = display_aovs(frame.options, diagnostics);
+  s.shown = shown_channels(frame.options, s.aovs);
   s.progress = settings.progress;
   using Clock = std::chrono::steady_clock;
   auto seconds_since = [](Clock::time_point from) {
@@ -222,9 +224,11 @@ void Renderer::Impl::render(Scene& frame) {
   std::optional<Preview> preview;
   if (!settings.preview.empty()) {
     preview.emplace(frame.options, s.aovs, settings.preview);
+    for (size_t c = 0; c < 3; ++c)
+      s.shown.set(Image::kCi + c);
     s.finished = [&](const Image& pixels, const PixelRect& rect) { preview->add(pixels, rect); };
   }
-  if (std::string why = too_large(frame.options, s.aovs); !why.empty()) {
+  if (std::string why = too_large(frame.options, s); !why.empty()) {
     diagnostics.error({}, why);
     return;
   }

@@ -281,4 +281,15 @@ std::vector<FileChannel> file_channels(const Options& options, const DisplayRequ
   return out;
 }
 
+Image::StandardChannels shown_channels(const Options& options, const std::vector<AovChannel>& aovs) {
+  Image::StandardChannels out;
+  if (options.imager) out.set().reset(Image::kZ);
+  for (const DisplayRequest& d : options.displays) {
+    if (d.type == "null") continue;
+    for (const FileChannel& c : file_channels(options, d, aovs))
+      if (c.source < Image::kAov) out.set(static_cast<size_t>(c.source));
+  }
+  return out;
+}
+
 } // namespace render

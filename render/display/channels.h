@@ -27,4 +27,7 @@ std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& 
 std::vector<FileChannel> file_channels(const Options& options, const DisplayRequest& display,
                                        const std::vector<AovChannel>& aovs);
 
+/// The standard channels that files of the displays show, or that an imager sees.
+Image::StandardChannels shown_channels(const Options& options, const std::vector<AovChannel>& aovs);
+
 } // namespace render

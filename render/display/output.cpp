@@ -4,6 +4,7 @@
 #include "render/display/channels.h"
 #include "render/display/file_format.h"
 #include "render/display/quantize.h"
+#include "render/display/quantize_row.h"
 #include "render/state/camera.h"
 #include "render/state/transforms.h"
 #include "render/texture/image_file.h"
@@ -60,43 +61,34 @@ void Writer::describe(ImageFile& file, const std::vector<FileChannel>& channels)
   std::copy_n(to_screen.m.data(), 16, file.world_to_screen.begin());
 }
 
-/// `count` values of a channel, `from_step` and `to_step` apart.
-template <class From, class To>
-void pack_channel(const From* from, size_t from_step, To* to, size_t to_step, size_t count) {
-  for (size_t k = 0; k < count; ++k)
-    to[k * to_step] = static_cast<To>(from[k * from_step]);
+/// A channel's values, into pixels of `step` channels.
+template <class From, class To> void interleave(std::span<const From> from, To* to, size_t step) {
+  for (size_t k = 0; k < from.size(); ++k)
+    to[k * step] = static_cast<To>(from[k]);
 }
 
 template <class T> std::vector<std::byte> Writer::pack(const std::vector<FileChannel>& channels) const {
   const PixelRect& r = image_.rect;
-  const auto width = static_cast<size_t>(r.width()), pixel = static_cast<size_t>(image_.channels);
+  const auto width = static_cast<size_t>(r.width());
   std::vector<std::byte> out(width * static_cast<size_t>(r.height()) * channels.size() * sizeof(T));
   auto* row = reinterpret_cast<T*>(out.data());
-  std::vector<float> values(width);
   std::vector<int> whole(width);
   std::vector<uint64_t> hashes(width);
   for (int y = r.y0; y < r.y1; ++y, row += width * channels.size()) {
     int group = -1;
     for (size_t c = 0; c < channels.size(); ++c) {
       const int source = channels[c].source;
-      const float* from = image_.pixel(r.x0, y) + source;
+      const float* values = image_.row(source, r.x0, y);
       if (std::is_same_v<T, float> && channels[c].quantization.is_float()) {
-        pack_channel(from, pixel, row + c, channels.size(), width);
+        interleave(std::span(values, width), row + c, channels.size());
         continue;
       }
       if (const int own = Quantizer::group_of(source); own != group) {
         group = own;
-        for (size_t k = 0; k < width; ++k)
-          hashes[k] = Quantizer::hash(r.x0 + static_cast<int>(k), y, group);
+        hash_row(r.x0, y, group, hashes);
       }
-      // The quantizer's loop runs in vectors, as the values lie side by side.
-      const Quantizer quantize(channels[c].quantization, source);
-      pack_channel(from, pixel, values.data(), 1, width);
-      for (size_t k = 0; k < width; ++k)
-        whole[k] = quantize.bits(hashes[k]);
-      for (size_t k = 0; k < width; ++k)
-        whole[k] = quantize(values[k], whole[k]);
-      pack_channel(whole.data(), 1, row + c, channels.size(), width);
+      quantize_row(channels[c].quantization, source, hashes, values, whole.data());
+      interleave(std::span<const int>(whole), row + c, channels.size());
     }
   }
   return out;

@@ -52,7 +52,7 @@ void Preview::add(const Image& image, const PixelRect& rect) {
         size_t at = static_cast<size_t>(y - rect_.y0) * width + static_cast<size_t>(x - rect_.x0);
         for (size_t c = 0; c < 3; ++c)
           pixels_[3 * at + c] = static_cast<uint8_t>(quantize(
-              image.pixel(x, y)[channels_[c].source], channels_[c].quantization, x, y, channels_[c].source));
+              image.at(channels_[c].source, x, y), channels_[c].quantization, x, y, channels_[c].source));
       }
     if (writing_ || Clock::now() - last_ < kPause) return;
     writing_ = true;

@@ -26,11 +26,11 @@ void AfterFilter::expose(const PixelRect& rect, int first, int count, const std:
                          Image& image) {
   auto [gain, gamma] = exposure;
   if (gain == 1 && gamma == 1) return;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      float* p = image.pixel(x, y) + first;
-      for (int c = 0; c < count; ++c)
-        p[c] = exposed(p[c], gain, gamma);
+  for (int c = first; c < first + count; ++c)
+    for (int y = rect.y0; image.has(c) && y < rect.y1; ++y) {
+      float* row = image.row(c, rect.x0, y);
+      for (int x = 0; x < rect.width(); ++x)
+        row[x] = exposed(row[x], gain, gamma);
     }
 }
 
@@ -66,15 +66,14 @@ void AfterFilter::run_imager(const PixelRect& rect, const Picture& picture, Imag
   size_t pitch = grid.pitch(), k = 0;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x, ++k) {
-      const float* p = image.pixel(x, y);
       planes[0][k] = static_cast<float>(x) + 0.5f;
       planes[0][pitch + k] = static_cast<float>(y) + 0.5f;
       planes[0][2 * pitch + k] = 0;
       for (int c = 0; c < 3; ++c) {
-        planes[1][static_cast<size_t>(c) * pitch + k] = p[picture.Ci + c];
-        planes[2][static_cast<size_t>(c) * pitch + k] = p[picture.Oi + c];
+        planes[1][static_cast<size_t>(c) * pitch + k] = image.at(picture.Ci + c, x, y);
+        planes[2][static_cast<size_t>(c) * pitch + k] = image.at(picture.Oi + c, x, y);
       }
-      planes[3][k] = p[picture.alpha];
+      planes[3][k] = image.at(picture.alpha, x, y);
       planes[4][k] = planes[0][k] / static_cast<float>(options_.xres);
       planes[5][k] = planes[0][pitch + k] / static_cast<float>(options_.yres);
     }
@@ -84,12 +83,11 @@ void AfterFilter::run_imager(const PixelRect& rect, const Picture& picture, Imag
   k = 0;
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x, ++k) {
-      float* p = image.pixel(x, y);
       for (int c = 0; c < 3; ++c) {
-        p[picture.Ci + c] = Ci.get(static_cast<size_t>(c), k);
-        p[picture.Oi + c] = Oi.get(static_cast<size_t>(c), k);
+        *image.row(picture.Ci + c, x, y) = Ci.get(static_cast<size_t>(c), k);
+        *image.row(picture.Oi + c, x, y) = Oi.get(static_cast<size_t>(c), k);
       }
-      p[picture.alpha] = alpha.get(0, k);
+      *image.row(picture.alpha, x, y) = alpha.get(0, k);
     }
 }
 

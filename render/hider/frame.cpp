@@ -57,7 +57,8 @@ public:
     sampling_.mask = settings.mask;
     sampling_.mask_scale = {1 / static_cast<float>(options_.xres), 1 / static_cast<float>(options_.yres)};
     threads_ = thread_count(settings.threads);
-    image_ = Image(image_rect(camera_.crop()), static_cast<int>(sampling_.aov_floats()));
+    sampling_.reconstruction.shown = settings.shown;
+    image_ = Image(image_rect(camera_.crop()), static_cast<int>(sampling_.aov_floats()), settings.shown);
   }
 
   Image run(FrameReport& report);

@@ -17,7 +17,8 @@ namespace render {
 struct FrameSettings {
   int threads = 0; ///< 0: all processors
   std::vector<AovChannel> aovs;
-  const DepthMask* mask = nullptr; ///< of Hider "depthmask"
+  Image::StandardChannels shown = Image::all(); ///< the image has these
+  const DepthMask* mask = nullptr;              ///< of Hider "depthmask"
   /// Who makes what procedurals hold. Null: scenes have none.
   ContentMaker make_content;
   /// Called with the finished fraction, from any thread but never from two at once.

@@ -36,35 +36,37 @@ struct WideVec2 {
 struct WideCoverage {
   M first, second;
   V ab, bd, dc, ca, diagonal;
+  WideVec2 from_a; ///< to the samples
 };
 
 /// Corners a, b, c, d, u fastest; as many micropolygons as lanes, or one in all of them.
-struct WideQuad {
+struct WideOutline {
   WideVec2 p[4];
-  V z[4];
 
   /// Of the samples at `at` only those in `looked_at` are found. Of two triangles that share an edge exactly
   /// one contains a sample on or near it: the areas for an edge and for its reverse differ in their signs
   /// only, products and differences being what they are in floating point; and samples that are right on an
   /// edge go to one side of it by its direction.
   HWY_INLINE WideCoverage cover(const WideVec2& at, M looked_at) const {
-    WideVec2 to[4];
+    WideVec2 from[4];
     for (size_t c = 0; c < 4; ++c)
-      to[c] = {hn::Sub(p[c].x, at.x), hn::Sub(p[c].y, at.y)};
-    auto area = [&](size_t i, size_t j)
-                    HWY_ATTR { return hn::Sub(hn::Mul(to[i].x, to[j].y), hn::Mul(to[i].y, to[j].x)); };
+      from[c] = {hn::Sub(at.x, p[c].x), hn::Sub(at.y, p[c].y)};
+    auto area = [&](size_t i, size_t j) HWY_ATTR {
+      return hn::Sub(hn::Mul(from[i].x, from[j].y), hn::Mul(from[i].y, from[j].x));
+    };
     WideCoverage out;
     out.ab = area(0, 1);
     out.bd = area(1, 3);
     out.dc = area(3, 2);
     out.ca = area(2, 0);
     out.diagonal = area(3, 0);
+    out.from_a = from[0];
     const V zero = hn::Zero(kWide);
     M ab = hn::Gt(out.ab, zero), bd = hn::Gt(out.bd, zero), dc = hn::Gt(out.dc, zero),
       ca = hn::Gt(out.ca, zero), da = hn::Gt(out.diagonal, zero);
-    const V least = hn::Min(hn::Min(hn::Abs(out.ab), hn::Abs(out.bd)),
-                            hn::Min(hn::Min(hn::Abs(out.dc), hn::Abs(out.ca)), hn::Abs(out.diagonal)));
-    if (!hn::AllFalse(kWide, hn::And(hn::Eq(least, zero), looked_at))) {
+    // Not greater than zero: also what is too small for a number, and what is none.
+    const V product = hn::Mul(hn::Mul(hn::Mul(out.ab, out.bd), hn::Mul(out.dc, out.ca)), out.diagonal);
+    if (HWY_UNLIKELY(!hn::AllFalse(kWide, hn::AndNot(hn::Gt(hn::Abs(product), zero), looked_at)))) {
       ab = with_ties(ab, out.ab, 0, 1);
       bd = with_ties(bd, out.bd, 1, 3);
       dc = with_ties(dc, out.dc, 3, 2);
@@ -84,6 +86,10 @@ private:
     const M back = hn::Or(hn::Lt(b.x, a.x), hn::And(hn::Eq(b.x, a.x), hn::Lt(b.y, a.y)));
     return hn::Or(left, hn::And(hn::Eq(area, hn::Zero(kWide)), back));
   }
+};
+
+struct WideQuad : WideOutline {
+  V z[4];
 };
 
 struct WideBox {
@@ -172,16 +178,12 @@ HWY_INLINE void for_window(size_t width, const Window& window, Look&& look) {
 }
 
 /// Calls `found(rows, coverage)` for all samples of the window, in vectors, of which some are in the
-/// micropolygon; `box` is around it. The raster positions are in the planes x and y, `width` samples to a
-/// row.
+/// micropolygon. The raster positions are in the planes x and y, `width` samples to a row.
 template <class Window, class Found>
-HWY_INLINE void for_covered(const WideQuad& quad, const WideBox& box, const float* x, const float* y,
-                            size_t width, const Window& window, Found&& found) {
+HWY_INLINE void for_covered(const WideOutline& outline, const float* x, const float* y, size_t width,
+                            const Window& window, Found&& found) {
   for_window(width, window, [&](const auto& rows, M in_window) HWY_ATTR {
-    const WideVec2 at{rows.load(x), rows.load(y)};
-    const M looked_at = hn::And(box.contains(at), in_window);
-    if (hn::AllFalse(kWide, looked_at)) return;
-    const WideCoverage covered = quad.cover(at, looked_at);
+    const WideCoverage covered = outline.cover({rows.load(x), rows.load(y)}, in_window);
     if (!hn::AllFalse(kWide, hn::Or(covered.first, covered.second))) found(rows, covered);
   });
 }

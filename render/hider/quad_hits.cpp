@@ -79,9 +79,7 @@ size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const
     quad.p[c] = {hn::Set(kWide, p[c].x), hn::Set(kWide, p[c].y)};
     quad.z[c] = hn::Set(kWide, p[c].z);
   }
-  const WideBox box(glm::min(glm::min(Vec2(p[0]), Vec2(p[1])), glm::min(Vec2(p[2]), Vec2(p[3]))),
-                    glm::max(glm::max(Vec2(p[0]), Vec2(p[1])), glm::max(Vec2(p[2]), Vec2(p[3]))));
-  for_covered(quad, box, field.x, field.y, field.width, window,
+  for_covered(quad, field.x, field.y, field.width, window,
               [&](const auto& rows, const WideCoverage& covered)
                   HWY_ATTR { finder.add(quad, covered, rows.numbers()); });
   return finder.count();

@@ -44,6 +44,18 @@ HWY_INLINE WideWeights weights_in(const WideCoverage& in, M& seen) {
   return {hn::IfThenElseZero(in.first, side), hn::IfThenZeroElse(in.first, side), hn::Mul(of_d, scale)};
 }
 
+/// One micropolygon's depths in all lanes: those of the plane of each of its triangles through the corner a.
+struct WideDepths {
+  V at_a, first_x, first_y, second_x, second_y;
+  V least, most; ///< of the corners: planes seen from their edges are steep
+
+  HWY_INLINE V at(const WideCoverage& in) const {
+    const V x = hn::IfThenElse(in.first, first_x, second_x), y = hn::IfThenElse(in.first, first_y, second_y);
+    const V z = hn::Add(at_a, hn::Add(hn::Mul(x, in.from_a.x), hn::Mul(y, in.from_a.y)));
+    return hn::Min(hn::Max(z, least), most);
+  }
+};
+
 /// Paints the samples of vectors that one micropolygon covers.
 class Painter {
 public:
@@ -52,29 +64,42 @@ public:
   /// How many had no surface before.
   size_t covered_first() const { return covered_first_; }
 
-  /// `k`: the micropolygon's first corner.
+  /// `k`: the micropolygon's first corner; `clipped`: parts of it may be beyond the clipping planes.
   template <class Samples>
-  HWY_INLINE void paint(const Samples& samples, const WideQuad& quad, const WideCoverage& in, size_t k) {
+  HWY_INLINE void paint(const Samples& samples, const WideDepths& depths, const WideCoverage& in, size_t k,
+                        bool clipped) {
     M seen = hn::Or(in.first, in.second);
-    const WideWeights weights = weights_in(in, seen);
-    const V z = weights.blend(quad.z[0], quad.z[1], quad.z[2], quad.z[3]), before = samples.load(canvas_.z);
-    const M between =
-        hn::And(hn::Ge(z, hn::Set(kWide, canvas_.near_plane)), hn::Le(z, hn::Set(kWide, canvas_.far_plane)));
-    seen = hn::And(hn::And(seen, hn::Lt(z, before)), between);
+    const V z = depths.at(in), before = samples.load(canvas_.z);
+    if (clipped)
+      seen = hn::And(seen, hn::And(hn::Ge(z, hn::Set(kWide, canvas_.near_plane)),
+                                   hn::Le(z, hn::Set(kWide, canvas_.far_plane))));
+    seen = hn::And(seen, hn::Lt(z, before));
     if (hn::AllFalse(kWide, seen)) return;
     samples.store(hn::IfThenElse(seen, z, before), canvas_.z);
     covered_first_ += hn::CountTrue(kWide, hn::And(seen, hn::Eq(before, hn::Set(kWide, kInfinity))));
-    for (const PaintedValues& v : values_) {
-      const float* own = v.values + k * v.step;
-      V value = hn::Set(kWide, own[0]);
-      if (smooth_)
-        value = weights.blend(value, hn::Set(kWide, own[v.step]), hn::Set(kWide, own[nu_ * v.step]),
-                              hn::Set(kWide, own[(nu_ + 1) * v.step]));
-      samples.store(hn::IfThenElse(seen, value, samples.load(v.plane)), v.plane);
-    }
+    if (smooth_)
+      blend(samples, in, seen, k);
+    else
+      for (const PaintedValues& v : values_)
+        set(samples, seen, hn::Set(kWide, v.values[k * v.step]), v.plane);
   }
 
 private:
+  template <class Samples> HWY_INLINE static void set(const Samples& samples, M seen, V value, float* plane) {
+    samples.store(hn::IfThenElse(seen, value, samples.load(plane)), plane);
+  }
+  template <class Samples>
+  HWY_INLINE void blend(const Samples& samples, const WideCoverage& in, M seen, size_t k) const {
+    const WideWeights weights = weights_in(in, seen);
+    for (const PaintedValues& v : values_) {
+      const float *at = v.values + k * v.step, *next = at + nu_ * v.step;
+      set(samples, seen,
+          weights.blend(hn::Set(kWide, at[0]), hn::Set(kWide, at[v.step]), hn::Set(kWide, next[0]),
+                        hn::Set(kWide, next[v.step])),
+          v.plane);
+    }
+  }
+
   size_t nu_;
   bool smooth_;
   std::span<const PaintedValues> values_;
@@ -82,54 +107,114 @@ private:
   size_t covered_first_ = 0;
 };
 
-/// Boxes around micropolygons beside each other in a row, a lane each, and the samples they touch.
-class NeighbourBoxes {
+/// Micropolygons beside each other in a row, a lane each: the samples their boxes touch and the planes they
+/// are in.
+class Neighbours {
 public:
   /// Up to kLanes micropolygons, the first corner of the first of which is k.
-  HWY_INLINE NeighbourBoxes(const ShadedGrid& grid, size_t k, size_t count, const SampleCanvas& canvas) {
+  HWY_INLINE Neighbours(const ShadedGrid& grid, size_t k, size_t count, const SampleCanvas& canvas) {
     M touching = hn::FirstN(kWide, count);
-    find(grid, 0, k, canvas.covered.x0, canvas.density.x, canvas.width, low_x_, high_x_, i0_, i1_, touching);
-    find(grid, 1, k, canvas.covered.y0, canvas.density.y, canvas.height, low_y_, high_y_, j0_, j1_, touching);
-    hn::StoreMaskBits(kWide, touching, reinterpret_cast<uint8_t*>(&touching_));
+    const Corners x(grid, 0, k), y(grid, 1, k);
+    find(x, canvas.covered.x0, canvas.density.x, canvas.width, i0_, i1_, touching);
+    find(y, canvas.covered.y0, canvas.density.y, canvas.height, j0_, j1_, touching);
+    if (hn::AllFalse(kWide, touching)) return;
+    const Corners z(grid, 2, k);
+    find_depths(x, y, z, touching);
+    const M clipped = hn::Not(hn::And(hn::Ge(z.least(), hn::Set(kWide, canvas.near_plane)),
+                                      hn::Le(z.most(), hn::Set(kWide, canvas.far_plane))));
+    touching_ = bits_of(touching);
+    clipped_ = bits_of(clipped);
   }
 
-  /// A bit for each that touches samples.
+  /// A bit for each that touches samples and has an area.
   uint64_t touching() const { return touching_; }
-  WideBox box(size_t lane) const { return {{low_x_[lane], low_y_[lane]}, {high_x_[lane], high_y_[lane]}}; }
+  /// Whether parts of it may be beyond the clipping planes.
+  bool clipped(size_t lane) const { return (clipped_ >> lane & 1) != 0; }
   SampleWindow window(size_t lane) const {
     return {static_cast<size_t>(i0_[lane]), static_cast<size_t>(i1_[lane]), static_cast<size_t>(j0_[lane]),
             static_cast<size_t>(j1_[lane])};
   }
+  HWY_INLINE WideDepths depths(size_t lane) const {
+    auto all = [&](const float* values) HWY_ATTR { return hn::Set(kWide, values[lane]); };
+    return {all(z_), all(x1_), all(y1_), all(x2_), all(y2_), all(least_), all(most_)};
+  }
 
 private:
+  /// One component of the corners of each.
+  struct Corners {
+    V a, b, c, d;
+
+    HWY_INLINE Corners(const ShadedGrid& grid, size_t component, size_t k) {
+      const auto nu = static_cast<size_t>(grid.nu);
+      const float* at = grid.position.plane(component) + k;
+      a = hn::LoadU(kWide, at);
+      b = hn::LoadU(kWide, at + 1);
+      c = hn::LoadU(kWide, at + nu);
+      d = hn::LoadU(kWide, at + nu + 1);
+    }
+    HWY_INLINE V least() const { return hn::Min(hn::Min(a, b), hn::Min(c, d)); }
+    HWY_INLINE V most() const { return hn::Max(hn::Max(a, b), hn::Max(c, d)); }
+  };
+
+  HWY_INLINE static uint64_t bits_of(M mask) {
+    uint64_t bits = 0;
+    hn::StoreMaskBits(kWide, mask, reinterpret_cast<uint8_t*>(&bits));
+    return bits;
+  }
+
   /// find_window() along one axis.
-  HWY_INLINE static void find(const ShadedGrid& grid, size_t component, size_t k, int origin, float density,
-                              int cells, float* low, float* high, int32_t* begin, int32_t* end, M& touching) {
-    const auto nu = static_cast<size_t>(grid.nu);
-    const float* at = grid.position.plane(component) + k;
-    const V a = hn::LoadU(kWide, at), b = hn::LoadU(kWide, at + 1), c = hn::LoadU(kWide, at + nu),
-            d = hn::LoadU(kWide, at + nu + 1);
-    const V least = hn::Min(hn::Min(a, b), hn::Min(c, d)), most = hn::Max(hn::Max(a, b), hn::Max(c, d));
+  HWY_INLINE static void find(const Corners& corners, int origin, float density, int cells, int32_t* begin,
+                              int32_t* end, M& touching) {
     const V zero = hn::Zero(kWide), limit = hn::Set(kWide, static_cast<float>(cells));
     auto place = [&](V v) HWY_ATTR {
       return hn::Mul(hn::Sub(v, hn::Set(kWide, static_cast<float>(origin))), hn::Set(kWide, density));
     };
-    const V from = place(least), to = place(most);
+    const V from = place(corners.least()), to = place(corners.most());
     // Also what is not a number, of micropolygons that are hidden, stays within the cells.
     auto cell = [&](V v) HWY_ATTR {
       return hn::Max(hn::ConvertTo(kIndices, hn::Min(limit, hn::Max(zero, v))), hn::Zero(kIndices));
     };
     const I first = cell(from), last = cell(hn::Add(to, hn::Set(kWide, 1.0f)));
     touching = hn::And(touching, hn::And(hn::Ge(to, zero), hn::RebindMask(kWide, hn::Lt(first, last))));
-    hn::Store(least, kWide, low);
-    hn::Store(most, kWide, high);
     hn::Store(first, kIndices, begin);
     hn::Store(last, kIndices, end);
   }
 
-  HWY_ALIGN float low_x_[kLanes], low_y_[kLanes], high_x_[kLanes], high_y_[kLanes];
+  struct Slopes {
+    V x, y;
+    M solid; ///< has an area
+  };
+  /// Of the depths in a triangle whose sides from the corner a go by b and by d.
+  HWY_INLINE static Slopes slopes(const V (&b)[3], const V (&d)[3]) {
+    const V area = hn::Sub(hn::Mul(b[0], d[1]), hn::Mul(b[1], d[0])), one = hn::Set(kWide, 1.0f);
+    const M solid = hn::Ne(area, hn::Zero(kWide));
+    const V scale = hn::Div(one, hn::IfThenElse(solid, area, one));
+    return {hn::Mul(hn::Sub(hn::Mul(b[2], d[1]), hn::Mul(d[2], b[1])), scale),
+            hn::Mul(hn::Sub(hn::Mul(d[2], b[0]), hn::Mul(b[2], d[0])), scale), solid};
+  }
+
+  /// Takes those without an area and what is no number out of `touching`.
+  HWY_INLINE void find_depths(const Corners& x, const Corners& y, const Corners& z, M& touching) {
+    const V b[] = {hn::Sub(x.b, x.a), hn::Sub(y.b, y.a), hn::Sub(z.b, z.a)},
+            c[] = {hn::Sub(x.c, x.a), hn::Sub(y.c, y.a), hn::Sub(z.c, z.a)},
+            d[] = {hn::Sub(x.d, x.a), hn::Sub(y.d, y.a), hn::Sub(z.d, z.a)};
+    const Slopes first = slopes(b, d), second = slopes(c, d);
+    const V sum = hn::Add(hn::Add(hn::Add(first.x, first.y), hn::Add(second.x, second.y)), z.a);
+    touching = hn::And(hn::And(touching, hn::Or(first.solid, second.solid)),
+                       hn::Eq(hn::Sub(sum, sum), hn::Zero(kWide)));
+    hn::Store(first.x, kWide, x1_);
+    hn::Store(first.y, kWide, y1_);
+    hn::Store(second.x, kWide, x2_);
+    hn::Store(second.y, kWide, y2_);
+    hn::Store(z.a, kWide, z_);
+    hn::Store(z.least(), kWide, least_);
+    hn::Store(z.most(), kWide, most_);
+  }
+
   HWY_ALIGN int32_t i0_[kLanes], i1_[kLanes], j0_[kLanes], j1_[kLanes];
-  uint64_t touching_ = 0;
+  HWY_ALIGN float z_[kLanes], least_[kLanes], most_[kLanes];
+  HWY_ALIGN float x1_[kLanes], y1_[kLanes], x2_[kLanes], y2_[kLanes]; ///< changes of depth a pixel
+  uint64_t touching_ = 0, clipped_ = 0;
 };
 
 /// Which of micropolygons beside each other are opaque all over, and which are not there at all: a bit each.
@@ -165,15 +250,13 @@ private:
 };
 
 /// A micropolygon of a grid in all lanes.
-HWY_INLINE WideQuad quad_of(const ShadedGrid& grid, size_t k) {
-  const float *x = grid.position.plane(0), *y = grid.position.plane(1), *z = grid.position.plane(2);
+HWY_INLINE WideOutline outline_of(const ShadedGrid& grid, size_t k) {
+  const float *x = grid.position.plane(0), *y = grid.position.plane(1);
   const auto nu = static_cast<size_t>(grid.nu);
   const size_t corners[] = {k, k + 1, k + nu, k + nu + 1};
-  WideQuad out;
-  for (size_t c = 0; c < 4; ++c) {
+  WideOutline out;
+  for (size_t c = 0; c < 4; ++c)
     out.p[c] = {hn::Set(kWide, x[corners[c]]), hn::Set(kWide, y[corners[c]])};
-    out.z[c] = hn::Set(kWide, z[corners[c]]);
-  }
   return out;
 }
 
@@ -185,10 +268,10 @@ size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values,
   for (size_t j = 0; j + 1 < nv; ++j) {
     if (!grid.rows.empty() && !grid.rows[j].touches(canvas.covered)) continue;
     for (size_t first = 0; first + 1 < nu; first += kLanes) {
-      const NeighbourBoxes boxes(grid, j * nu + first, std::min(kLanes, nu - 1 - first), canvas);
-      if (boxes.touching() == 0) continue;
+      const Neighbours neighbours(grid, j * nu + first, std::min(kLanes, nu - 1 - first), canvas);
+      if (neighbours.touching() == 0) continue;
       const Opacities opacities(grid, j * nu + first);
-      for (uint64_t left = boxes.touching() & ~opacities.absent; left != 0; left &= left - 1) {
+      for (uint64_t left = neighbours.touching() & ~opacities.absent; left != 0; left &= left - 1) {
         const auto lane = static_cast<size_t>(std::countr_zero(left));
         const size_t i = first + lane, k = j * nu + i;
         if (grid.hidden[j * (nu - 1) + i] == ShadedGrid::kNotDrawn) continue;
@@ -196,10 +279,11 @@ size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values,
           rest.push_back(k);
           continue;
         }
-        const WideQuad quad = quad_of(grid, k);
-        for_covered(quad, boxes.box(lane), canvas.x, canvas.y, width, boxes.window(lane),
+        const WideOutline outline = outline_of(grid, k);
+        const bool clipped = neighbours.clipped(lane);
+        for_covered(outline, canvas.x, canvas.y, width, neighbours.window(lane),
                     [&](const auto& samples, const WideCoverage& in)
-                        HWY_ATTR { painter.paint(samples, quad, in, k); });
+                        HWY_ATTR { painter.paint(samples, neighbours.depths(lane), in, k, clipped); });
       }
     }
   }

@@ -24,11 +24,11 @@ SampleSpan filled(const BucketSamples& samples, size_t j0, size_t j1) {
 } // namespace
 
 Reconstructor::Reconstructor(const ReconstructionSettings& settings, const SampleGridSize& size)
-    : settings_(settings), size_(size), columns_(size) {
+    : settings_(settings), size_(size), columns_(size), depths_(settings.depth_channels()) {
   Plan& standard = plans_.emplace_back(settings_.filter, WindowWeights(settings_.filter, size_));
   // Depths are not blended.
   for (size_t c = 0; c < Image::kZ; ++c)
-    standard.terms.push_back({c, c});
+    if (settings_.shown[c]) standard.terms.push_back({c, c});
   plan_aovs();
 }
 
@@ -76,12 +76,12 @@ template <class F> void Reconstructor::for_runs(const PixelRect& rect, F&& f) {
 
 /// `values`: of the run's block.
 void Reconstructor::set(Image& image, const Run& run, size_t channel, const float* values) {
-  float* to = image.pixel(run.x0, run.y) + channel;
-  for (int x = run.x0; x < run.x1; ++x, to += image.channels)
-    *to = values[x - run.block()];
+  std::copy(values + (run.x0 - run.block()), values + (run.x1 - run.block()),
+            image.row(static_cast<int>(channel), run.x0, run.y));
 }
 
 void Reconstructor::filter(Plan& plan, const BucketSamples& samples, Image& image) {
+  if (plan.terms.empty()) return;
   // What several channels share, such as the coverage of what is opaque, is summed once.
   sources_.clear();
   source_of_.clear();
@@ -122,6 +122,7 @@ void Reconstructor::filter(Plan& plan, const BucketSamples& samples, Image& imag
 }
 
 void Reconstructor::set_depths(const BucketSamples& samples, Image& image) {
+  if (depths_.empty()) return;
   offsets_.clear();
   for (int j = 0; j < size_.ysamples; ++j)
     for (int i = 0; i < size_.xsamples; ++i)
@@ -130,10 +131,8 @@ void Reconstructor::set_depths(const BucketSamples& samples, Image& image) {
   float depths[SampleColumns::kBlock];
   for_runs(samples.rect, [&](const Run& run) {
     find_depths(z + columns_.place(run.block(), run.y), depths);
-    set(image, run, Image::kZ, depths);
-    for (const AovChannel& a : settings_.aovs)
-      if (a.source == AovChannel::Source::kDepth)
-        set(image, run, static_cast<size_t>(Image::kAov + a.first), depths);
+    for (size_t channel : depths_)
+      set(image, run, channel, depths);
   });
 }
 
@@ -165,20 +164,21 @@ void Reconstructor::find_depths(const float* z, float* out) const {
 
 void Reconstructor::copy_samples(const BucketSamples& samples, Image& image) const {
   const PixelRect& rect = samples.rect;
-  const auto width = static_cast<size_t>(samples.pattern.width());
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x)
-      for (int j = 0; j < size_.ysamples; ++j)
-        for (int i = 0; i < size_.xsamples; ++i) {
-          size_t k = sample(samples, x, y) + static_cast<size_t>(j) * width + static_cast<size_t>(i);
-          float* p = image.pixel(x * size_.xsamples + i, y * size_.ysamples + j);
-          for (const Plan& plan : plans_)
-            for (const Term& t : plan.terms)
-              p[t.channel] = samples.planes[t.plane][k];
-          p[Image::kZ] = std::min(samples.planes[Image::kZ][k], Image::kEmptyDepth);
-          for (const AovChannel& a : settings_.aovs)
-            if (a.source == AovChannel::Source::kDepth) p[Image::kAov + a.first] = p[Image::kZ];
-        }
+  const auto width = static_cast<size_t>(samples.pattern.width()),
+             count = static_cast<size_t>(rect.width() * size_.xsamples);
+  const auto first = static_cast<size_t>((rect.x0 - samples.covered.x0) * size_.xsamples);
+  for (int y = rect.y0 * size_.ysamples; y < rect.y1 * size_.ysamples; ++y) {
+    const size_t k = static_cast<size_t>(y - samples.covered.y0 * size_.ysamples) * width + first;
+    auto to = [&](size_t channel) {
+      return image.row(static_cast<int>(channel), rect.x0 * size_.xsamples, y);
+    };
+    for (const Plan& plan : plans_)
+      for (const Term& t : plan.terms)
+        std::copy_n(samples.planes[t.plane] + k, count, to(t.channel));
+    for (size_t channel : depths_)
+      std::transform(samples.planes[Image::kZ] + k, samples.planes[Image::kZ] + k + count, to(channel),
+                     [](float z) { return std::min(z, Image::kEmptyDepth); });
+  }
 }
 
 size_t ReconstructionSettings::aov_floats() const {
@@ -204,15 +204,18 @@ int ReconstructionSettings::ymargin() const {
   return out;
 }
 
+std::vector<size_t> ReconstructionSettings::depth_channels() const {
+  std::vector<size_t> out;
+  if (shown[Image::kZ]) out.push_back(Image::kZ);
+  for (const AovChannel& a : aovs)
+    if (a.source == AovChannel::Source::kDepth) out.push_back(static_cast<size_t>(Image::kAov + a.first));
+  return out;
+}
+
 void clear(const ReconstructionSettings& settings, PixelRect rect, Image& image) {
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x) {
-      float* p = image.pixel(x, y);
-      std::fill_n(p, image.channels, 0.0f);
-      p[Image::kZ] = Image::kEmptyDepth;
-      for (const AovChannel& a : settings.aovs)
-        if (a.source == AovChannel::Source::kDepth) p[Image::kAov + a.first] = Image::kEmptyDepth;
-    }
+  for (size_t channel : settings.depth_channels())
+    for (int y = rect.y0; y < rect.y1; ++y)
+      std::fill_n(image.row(static_cast<int>(channel), rect.x0, y), rect.width(), Image::kEmptyDepth);
 }
 
 } // namespace render

@@ -18,8 +18,11 @@ struct ReconstructionSettings {
   DepthFilter depth_filter = DepthFilter::kMin;
   bool subpixel = false; ///< no filter: the image has a pixel for each sample
   std::vector<AovChannel> aovs;
+  Image::StandardChannels shown = Image::all();
 
   size_t aov_floats() const;
+  /// The channels of the image that get depths.
+  std::vector<size_t> depth_channels() const;
   /// Pixels around a bucket whose samples its filters reach.
   int xmargin() const;
   int ymargin() const;
@@ -76,17 +79,12 @@ private:
   void set_depths(const BucketSamples& samples, Image& image);
   void find_depths(const float* z, float* out) const;
   void copy_samples(const BucketSamples& samples, Image& image) const;
-  /// The number of the pixel's first sample.
-  size_t sample(const BucketSamples& samples, int x, int y) const {
-    auto row = static_cast<size_t>((y - samples.covered.y0) * size_.ysamples),
-         column = static_cast<size_t>((x - samples.covered.x0) * size_.xsamples);
-    return row * static_cast<size_t>(samples.pattern.width()) + column;
-  }
 
   ReconstructionSettings settings_;
   SampleGridSize size_;
   SampleColumns columns_;
   std::vector<Plan> plans_;             ///< the first is that of the standard channels
+  std::vector<size_t> depths_;          ///< the channels that get depths
   std::vector<const float*> sources_;   ///< the sorted planes of a plan, each once; filled up to kPlanes
   std::vector<const float*> at_;        ///< the same, at the place of a block
   std::vector<size_t> source_of_;       ///< for each term
@@ -94,7 +92,8 @@ private:
   std::vector<float> means_;            ///< for each source, of a block
 };
 
-/// The image's pixels of `rect`, which are samples with "subpixel", where nothing is.
+/// The image's pixels of `rect`, which are samples with "subpixel", where nothing is: zeros, as they are from
+/// the start, and depths.
 void clear(const ReconstructionSettings& settings, PixelRect rect, Image& image);
 
 } // namespace render

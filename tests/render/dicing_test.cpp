@@ -114,7 +114,7 @@ TEST(Dicing, motion_that_is_not_sampled_is_still_known) {
                                  "Polygon \"P\" [0 -1 0 .5 -1 0 .5 1 0 0 1 0] WorldEnd",
                              s);
     EXPECT_EQ(r.messages, "");
-    return std::pair(r.alpha(x, 16), r.image.pixel(x, 16)[Image::kAov]);
+    return std::pair(r.alpha(x, 16), r.image.at(Image::kAov, x, 16));
   };
   EXPECT_NEAR(at("", 4).first, 0.3, 0.1); // smeared
   auto [alpha, motion] = at("Hider \"hidden\" \"int samplemotion\" 0 ", 4);

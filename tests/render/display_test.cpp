@@ -131,8 +131,8 @@ TEST_F(Display, a_display_has_its_own_filter) {
   EXPECT_NEAR(r.alpha(4, 4), 1, 1e-4f);
   EXPECT_EQ(r.alpha(3, 4), 0);
   for (int x : {3, 4, 5})
-    EXPECT_NEAR(r.image.pixel(x, 3)[Image::kAov + 3], 1 / 9.0f, 1e-4f);
-  EXPECT_EQ(r.image.pixel(2, 4)[Image::kAov + 3], 0);
+    EXPECT_NEAR(r.image.at(Image::kAov + 3, x, 3), 1 / 9.0f, 1e-4f);
+  EXPECT_EQ(r.image.at(Image::kAov + 3, 2, 4), 0);
 }
 
 TEST_F(Display, channels_of_one_file) {

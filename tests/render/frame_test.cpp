@@ -152,7 +152,7 @@ TEST(Frame, a_crop_window_is_a_piece_of_the_whole) {
   for (int y = part.image.rect.y0; y < part.image.rect.y1; ++y)
     for (int x = part.image.rect.x0; x < part.image.rect.x1; ++x)
       for (int c = 0; c < Image::kAov; ++c)
-        ASSERT_EQ(part.image.pixel(x, y)[c], whole.image.pixel(x, y)[c]) << x << " " << y << " " << c;
+        ASSERT_EQ(part.image.at(c, x, y), whole.image.at(c, x, y)) << x << " " << y << " " << c;
 }
 
 constexpr const char* kEveryFilter[] = {"\"box\" 1 1",
@@ -216,9 +216,8 @@ TEST(Frame, shader_variables_as_channels) {
   Rendered r = render_text("Format 8 8 1 PixelFilter \"box\" 1 1 WorldBegin Translate 0 0 5 Disk 0 9 360 "
                            "\"constant float heat\" [42] WorldEnd",
                            s);
-  const float* p = r.image.pixel(4, 4) + Image::kAov;
-  EXPECT_NEAR(p[2], 1, 1e-5f);
-  EXPECT_FLOAT_EQ(p[3], 42);
+  EXPECT_NEAR(r.image.at(Image::kAov + 2, 4, 4), 1, 1e-5f);
+  EXPECT_FLOAT_EQ(r.image.at(Image::kAov + 3, 4, 4), 42);
 }
 
 /// The coverage of each pixel of the middle row.

@@ -1,5 +1,6 @@
 // The sample buffer by itself: coverage of micropolygons, shared edges, compositing with known answers.
 #include "render/hider/sample_buffer.h"
+#include "tests/render/render_text.h"
 
 #include <gtest/gtest.h>
 
@@ -52,9 +53,9 @@ TEST(Hider, half_plane_covers_its_area) {
   Image i = drawn(
       {quad({Vec3(-9, -3.75f, 1), Vec3(11, 6.25f, 1), Vec3(-9, 50, 1), Vec3(11, 60, 1)}, kWhite, kWhite)},
       settings(16));
-  EXPECT_NEAR(i.pixel(1, 1)[Image::kAlpha], 0.5f, 0.01f);
-  EXPECT_EQ(i.pixel(1, 0)[Image::kAlpha], 0);
-  EXPECT_EQ(i.pixel(1, 3)[Image::kAlpha], 1);
+  EXPECT_NEAR(i.at(Image::kAlpha, 1, 1), 0.5f, 0.01f);
+  EXPECT_EQ(i.at(Image::kAlpha, 1, 0), 0);
+  EXPECT_EQ(i.at(Image::kAlpha, 1, 3), 1);
 }
 
 TEST(Hider, neighbours_share_edges_without_gap_or_overlap) {
@@ -73,7 +74,7 @@ TEST(Hider, neighbours_share_edges_without_gap_or_overlap) {
     Image i = drawn(grids, s);
     for (int y = 0; y < 4; ++y)
       for (int x = 0; x < 4; ++x)
-        EXPECT_FLOAT_EQ(i.pixel(x, y)[Image::kAlpha], 0.5f);
+        EXPECT_FLOAT_EQ(i.at(Image::kAlpha, x, y), 0.5f);
   }
 }
 
@@ -86,16 +87,16 @@ TEST(Hider, samples_on_an_edge_belong_to_one_side) {
                 kWhite * 0.5f);
   };
   Image i = drawn({half(-1, 1.5f), half(1.5f, 9)}, s);
-  EXPECT_FLOAT_EQ(i.pixel(1, 1)[Image::kAlpha], 0.5f);
+  EXPECT_FLOAT_EQ(i.at(Image::kAlpha, 1, 1), 0.5f);
 }
 
 TEST(Hider, nearest_opaque_surface_wins_in_any_order) {
   ShadedGrid red = sheet(2, {1, 0, 0}, kWhite), green = sheet(1, {0, 1, 0}, kWhite);
   for (const auto& order : {std::vector{red, green}, std::vector{green, red}}) {
     Image i = drawn(order);
-    EXPECT_EQ(i.pixel(1, 1)[0], 0);
-    EXPECT_EQ(i.pixel(1, 1)[1], 1);
-    EXPECT_EQ(i.pixel(1, 1)[Image::kZ], 1);
+    EXPECT_EQ(i.at(0, 1, 1), 0);
+    EXPECT_EQ(i.at(1, 1, 1), 1);
+    EXPECT_EQ(i.at(Image::kZ, 1, 1), 1);
   }
 }
 
@@ -105,14 +106,13 @@ TEST(Hider, transparent_surfaces_composite_front_to_back) {
              c = sheet(3, {0, 0, 1}, kWhite);
   for (const auto& order : {std::vector{a, b, c}, std::vector{c, b, a}, std::vector{b, c, a}}) {
     Image i = drawn(order);
-    const float* p = i.pixel(2, 2);
-    EXPECT_FLOAT_EQ(p[0], 0.5f);
-    EXPECT_FLOAT_EQ(p[1], 0.5f * 0.25f);
-    EXPECT_FLOAT_EQ(p[2], 0.5f * 0.75f);
-    EXPECT_FLOAT_EQ(p[Image::kAlpha], 1);
+    EXPECT_FLOAT_EQ(i.at(0, 2, 2), 0.5f);
+    EXPECT_FLOAT_EQ(i.at(1, 2, 2), 0.5f * 0.25f);
+    EXPECT_FLOAT_EQ(i.at(2, 2, 2), 0.5f * 0.75f);
+    EXPECT_FLOAT_EQ(i.at(Image::kAlpha, 2, 2), 1);
   }
   Image i = drawn({b, a});
-  EXPECT_FLOAT_EQ(i.pixel(0, 0)[Image::kAlpha], 1 - 0.5f * 0.75f);
+  EXPECT_FLOAT_EQ(i.at(Image::kAlpha, 0, 0), 1 - 0.5f * 0.75f);
 }
 
 TEST(Hider, many_layers_composite_in_the_order_of_their_depths) {
@@ -135,42 +135,42 @@ TEST(Hider, many_layers_composite_in_the_order_of_their_depths) {
     }
     const Image i = drawn(grids);
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(i.pixel(1, 2)[c], expected[c], 1e-6f) << count;
-    EXPECT_NEAR(i.pixel(1, 2)[Image::kAlpha], 1 - through, 1e-5f) << count;
+      EXPECT_NEAR(i.at(c, 1, 2), expected[c], 1e-6f) << count;
+    EXPECT_NEAR(i.at(Image::kAlpha, 1, 2), 1 - through, 1e-5f) << count;
   }
 }
 
 TEST(Hider, coloured_opacity_filters_each_component) {
   Image i = drawn({sheet(1, kBlack, {1, 0, 0.5f}), sheet(2, kWhite, kWhite)});
-  EXPECT_FLOAT_EQ(i.pixel(0, 0)[0], 0);
-  EXPECT_FLOAT_EQ(i.pixel(0, 0)[1], 1);
-  EXPECT_FLOAT_EQ(i.pixel(0, 0)[2], 0.5f);
+  EXPECT_FLOAT_EQ(i.at(0, 0, 0), 0);
+  EXPECT_FLOAT_EQ(i.at(1, 0, 0), 1);
+  EXPECT_FLOAT_EQ(i.at(2, 0, 0), 0.5f);
 }
 
 TEST(Hider, light_without_opacity_adds) {
   Image i = drawn({sheet(1, {0.25f, 0.25f, 0.25f}, kBlack), sheet(2, {0.5f, 0.5f, 0.5f}, kWhite)});
-  EXPECT_FLOAT_EQ(i.pixel(0, 0)[0], 0.75f);
+  EXPECT_FLOAT_EQ(i.at(0, 0, 0), 0.75f);
 }
 
 TEST(Hider, matte_cuts_a_hole) {
   ShadedGrid hole = sheet(1, kWhite, kWhite);
   hole.matte = true;
   Image i = drawn({hole, sheet(2, kWhite, kWhite)});
-  EXPECT_EQ(i.pixel(0, 0)[0], 0);
-  EXPECT_EQ(i.pixel(0, 0)[Image::kAlpha], 0);
+  EXPECT_EQ(i.at(0, 0, 0), 0);
+  EXPECT_EQ(i.at(Image::kAlpha, 0, 0), 0);
   ShadedGrid half = sheet(1, kWhite, kWhite * 0.5f);
   half.matte = true;
   i = drawn({half, sheet(2, kWhite, kWhite)});
-  EXPECT_FLOAT_EQ(i.pixel(0, 0)[Image::kAlpha], 0.5f);
+  EXPECT_FLOAT_EQ(i.at(Image::kAlpha, 0, 0), 0.5f);
 }
 
 TEST(Hider, smooth_and_constant_shading) {
   ShadedGrid g = sheet(1, kWhite, kWhite);
   g.Ci.set(0, kBlack);
   g.Ci.set(2, kBlack);
-  EXPECT_EQ(drawn({g}).pixel(2, 2)[0], 0);
+  EXPECT_EQ(drawn({g}).at(0, 2, 2), 0);
   g.smooth = true;
-  EXPECT_NEAR(drawn({g}, settings(16)).pixel(2, 2)[0], (2.5f + 9) / 108, 1e-3f);
+  EXPECT_NEAR(drawn({g}, settings(16)).at(0, 2, 2), (2.5f + 9) / 108, 1e-3f);
 }
 
 TEST(Hider, clipping_planes_cut_within_a_micropolygon) {
@@ -178,8 +178,8 @@ TEST(Hider, clipping_planes_cut_within_a_micropolygon) {
   s.near_plane = 2;
   // z runs from 0 at x = 0 to 4 at x = 4: the left half is too near.
   Image i = drawn({quad({Vec3(0, -1, 0), Vec3(4, -1, 4), Vec3(0, 9, 0), Vec3(4, 9, 4)}, kWhite, kWhite)}, s);
-  EXPECT_EQ(i.pixel(1, 1)[Image::kAlpha], 0);
-  EXPECT_EQ(i.pixel(2, 1)[Image::kAlpha], 1);
+  EXPECT_EQ(i.at(Image::kAlpha, 1, 1), 0);
+  EXPECT_EQ(i.at(Image::kAlpha, 2, 1), 1);
 }
 
 TEST(Hider, painted_grids_look_as_those_drawn_hit_by_hit) {
@@ -216,7 +216,7 @@ TEST(Hider, painted_grids_look_as_those_drawn_hit_by_hit) {
   Camera camera{Options()};
   slow.camera = &camera;
   slow.clipping_planes = {{Vec3(0, 0, -1), Vec3(0, 0, -1)}};
-  EXPECT_EQ(drawn(grids, s, 16).data, drawn(grids, slow, 16).data);
+  testing::expect_alike(drawn(grids, s, 16), drawn(grids, slow, 16));
   for (size_t n = 0; n < grids.size(); ++n) {
     ShadedGrid& g = grids[n];
     g.opaque = n % 3 == 0;
@@ -227,7 +227,7 @@ TEST(Hider, painted_grids_look_as_those_drawn_hit_by_hit) {
       if (n % 2 == 1) g.Ci.set(k, kBlack);
     }
   }
-  EXPECT_EQ(drawn(grids, s, 16).data, drawn(grids, slow, 16).data);
+  testing::expect_alike(drawn(grids, s, 16), drawn(grids, slow, 16));
 }
 
 TEST(Hider, what_is_painted_over_a_hole_is_seen) {
@@ -236,8 +236,8 @@ TEST(Hider, what_is_painted_over_a_hole_is_seen) {
   front.opaque = true;
   for (const auto& order : {std::vector{hole, front}, std::vector{front, hole}}) {
     Image i = drawn(order);
-    EXPECT_EQ(i.pixel(1, 1)[1], 0.5f);
-    EXPECT_EQ(i.pixel(1, 1)[Image::kAlpha], 1);
+    EXPECT_EQ(i.at(1, 1, 1), 0.5f);
+    EXPECT_EQ(i.at(Image::kAlpha, 1, 1), 1);
   }
 }
 
@@ -314,8 +314,8 @@ TEST(Hider, an_aov_shows_the_nearest_surface) {
   a.aov_floats = b.aov_floats = 1;
   a.aov.assign(4, 7.0f);
   b.aov.assign(4, 9.0f);
-  EXPECT_FLOAT_EQ(drawn({a, b}, s).pixel(0, 0)[Image::kAov], 7);
-  EXPECT_FLOAT_EQ(drawn({b}, s).pixel(0, 0)[Image::kAov], 9);
+  EXPECT_FLOAT_EQ(drawn({a, b}, s).at(Image::kAov, 0, 0), 7);
+  EXPECT_FLOAT_EQ(drawn({b}, s).at(Image::kAov, 0, 0), 9);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 
 #include "render/display/output.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 namespace render::testing {
@@ -64,8 +66,17 @@ std::unique_ptr<GridShader> PlainShading::make_grid_shader() {
 }
 
 Color Rendered::Ci(int x, int y) const {
-  const float* p = image.pixel(x, y);
-  return {p[Image::kCi], p[Image::kCi + 1], p[Image::kCi + 2]};
+  return {image.at(Image::kCi, x, y), image.at(Image::kCi + 1, x, y), image.at(Image::kCi + 2, x, y)};
+}
+
+void expect_alike(const Image& a, const Image& b) {
+  ASSERT_EQ(a.data.size(), b.data.size());
+  for (int c = 0; c < a.channels; ++c)
+    for (int y = a.rect.y0; y < a.rect.y1; ++y)
+      for (int x = a.rect.x0; x < a.rect.x1; ++x) {
+        const float value = a.at(c, x, y);
+        EXPECT_NEAR(value, b.at(c, x, y), c == Image::kZ ? value * 1e-5f : 0) << c << " " << x << " " << y;
+      }
 }
 
 double Rendered::covered() const {

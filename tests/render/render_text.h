@@ -30,11 +30,14 @@ struct Rendered {
   Scene scene;
 
   Color Ci(int x, int y) const;
-  float alpha(int x, int y) const { return image.pixel(x, y)[Image::kAlpha]; }
-  float z(int x, int y) const { return image.pixel(x, y)[Image::kZ]; }
+  float alpha(int x, int y) const { return image.at(Image::kAlpha, x, y); }
+  float z(int x, int y) const { return image.at(Image::kZ, x, y); }
   /// Sum of alpha over the image: covered area in pixels.
   double covered() const;
 };
+
+/// Of two ways to draw the same: depths differ by rounding, nothing else does.
+void expect_alike(const Image& a, const Image& b);
 
 Rendered render_text(const std::string& rib, const FrameSettings& settings = {}, bool headlight = false);
 Rendered render_text(const std::string& rib, const FrameSettings& settings, PlainShading& shading);
