@@ -81,7 +81,7 @@ OUTSIDE = {
     r"hwy/": ["slvm/wide", "slvm/kernels", "render/hider/quad_coverage", "render/hider/quad_hits", "render/hider/quad_paint",
              "render/hider/window_weights", "render/display/quantize_row", "render/rays/hemisphere_aim", "render/texture/latlong", "render/texture/shadow_map", "render/texture/texture_filter", "render/texture/wide_block", "stdlib/subsurface/dipole_block", "tests/bench", "tests/unit/kernels"],
     r"sleef": ["slvm/wide", "slvm/kernels", "tests/unit/kernels"],
-    r"opensubdiv/": ["render/prims"],
+    r"opensubdiv/": ["render/osd"],
     r"CLI/": ["slc/tools", "slvm/tools", "render/tools", "stdlib/tools"],
 }
 # Headers that sources of plug-ins include by their bare names.

@@ -1,35 +1,27 @@
 // Subdivision meshes.
 #include "render/prims/subdivision.h"
 
+#include "render/prims/limit_mesh.h"
 #include "render/prims/patches.h"
 #include "render/prims/typed_vars.h"
 
-#include <opensubdiv/bfr/refinerSurfaceFactory.h>
-#include <opensubdiv/bfr/surface.h>
-#include <opensubdiv/far/error.h>
-#include <opensubdiv/far/topologyDescriptor.h>
-
+#include <algorithm>
 #include <map>
 
 namespace render {
 
 namespace {
 
-namespace Bfr = OpenSubdiv::Bfr;
-namespace Far = OpenSubdiv::Far;
-namespace Sdc = OpenSubdiv::Sdc;
-
 using Vec3d = glm::dvec3;
-using Refiner = std::unique_ptr<Far::TopologyRefiner>;
 
 /// The part of a face that is a primitive: a quarter of the face from a corner to the centre, or all of it;
 /// of a triangle always a third.
 struct FacePart {
-  Bfr::Parameterization parameters;
+  FaceDomain domain;
   int quarter = -1;
 
-  bool of_triangle() const { return parameters.GetType() == Bfr::Parameterization::TRI; }
-  /// OpenSubdiv's coordinates of (u,v) in the part.
+  bool of_triangle() const { return domain.kind == FaceDomain::Kind::kTriangle; }
+  /// The face's coordinates of (u,v) in the part.
   void locate(double u, double v, double (&out)[2]) const {
     out[0] = u;
     out[1] = v;
@@ -41,9 +33,9 @@ struct FacePart {
         out[c] = (q[0][c] * (1 - u) + q[1][c] * u) * (1 - v) + (q[2][c] * (1 - u) + q[3][c] * u) * v;
       return;
     }
-    if (parameters.HasSubFaces()) {
-      double in[2] = {u, v};
-      parameters.ConvertNormalizedSubFaceToCoord(quarter, in, out);
+    if (domain.kind == FaceDomain::Kind::kSubFaces) {
+      out[0] = quarter % domain.columns + 0.5 * u;
+      out[1] = quarter / domain.columns + 0.5 * v;
       return;
     }
     // Corner `quarter` of the unit square, turned so that u runs along the face's own edge.
@@ -68,50 +60,7 @@ private:
   }
 };
 
-/// One variable (or P) over a face.
-class FaceSurface {
-public:
-  FaceSurface(std::span<const double> mesh_values, int width) : values_(mesh_values), width_(width) {}
-
-  Bfr::Surface<double>& surface() { return surface_; }
-  /// After the surface was found: fetches its points.
-  void prepare() {
-    Bfr::Surface<double>::PointDescriptor layout(width_);
-    points_.resize(static_cast<size_t>(surface_.GetNumPatchPoints() * width_));
-    surface_.PreparePatchPoints(values_.data(), layout, points_.data(), layout);
-  }
-  void at(const double (&uv)[2], double* value) const {
-    surface_.Evaluate(uv, points_.data(), Bfr::Surface<double>::PointDescriptor(width_), value);
-  }
-  void at(const double (&uv)[2], double* value, double* du, double* dv) const {
-    surface_.Evaluate(uv, points_.data(), Bfr::Surface<double>::PointDescriptor(width_), value, du, dv);
-  }
-  void at(const double (&uv)[2], double* value, double* du, double* dv, double* duv) const {
-    std::vector<double> duu(static_cast<size_t>(width_)), dvv(static_cast<size_t>(width_));
-    surface_.Evaluate(uv, points_.data(), Bfr::Surface<double>::PointDescriptor(width_), value, du, dv,
-                      duu.data(), duv, dvv.data());
-  }
-  /// Of degree 3 in u and v.
-  bool polynomial() const {
-    return surface_.IsRegular() && !surface_.IsLinear() &&
-           surface_.GetParameterization().GetType() != Bfr::Parameterization::TRI;
-  }
-  bool linear() const { return surface_.IsLinear(); }
-  int width() const { return width_; }
-  /// A box of all control points, which holds the limit surface.
-  Box hull() const {
-    Box box;
-    for (size_t i = 0; i < points_.size(); i += 3)
-      box.add(Vec3(Vec3d(points_[i], points_[i + 1], points_[i + 2])));
-    return box;
-  }
-
-private:
-  std::span<const double> values_;
-  int width_;
-  Bfr::Surface<double> surface_;
-  std::vector<double> points_;
-};
+using Surface = std::shared_ptr<const LimitSurface>;
 
 /// Tangents of a part from those of its face.
 struct Chain {
@@ -131,7 +80,7 @@ struct Chain {
 
 /// The sixteen Bezier values of a part of a regular face, u fastest, from value, slopes and twist at its
 /// corners.
-std::vector<float> bezier_values(const FaceSurface& face, const FacePart& part) {
+std::vector<float> bezier_values(const LimitSurface& face, const FacePart& part) {
   auto width = static_cast<size_t>(face.width());
   std::vector<float> out(16 * width);
   std::vector<double> p(width), fu(width), fv(width), fuv(width);
@@ -161,8 +110,12 @@ std::vector<float> bezier_values(const FaceSurface& face, const FacePart& part) 
 /// A face near an extraordinary vertex, a sharp edge or the like.
 class IrregularFace final : public Geometry {
 public:
-  IrregularFace(std::shared_ptr<const FaceSurface> face, const FacePart& part, int coarsest)
-      : face_(std::move(face)), part_(part), hull_(face_->hull()), coarsest_(coarsest) {}
+  IrregularFace(Surface face, const FacePart& part, int coarsest)
+      : face_(std::move(face)), part_(part), coarsest_(coarsest) {
+    const std::span<const double> points = face_->control_points();
+    for (size_t i = 0; i < points.size(); i += 3)
+      hull_.add(Vec3(Vec3d(points[i], points[i + 1], points[i + 2])));
+  }
 
   std::array<int, 2> coarsest() const override { return {coarsest_, coarsest_}; }
 
@@ -215,7 +168,7 @@ private:
     dv = fu * chain.vu + fv * chain.vv;
   }
 
-  std::shared_ptr<const FaceSurface> face_;
+  Surface face_;
   FacePart part_;
   Box hull_;
   int coarsest_;
@@ -223,8 +176,7 @@ private:
 
 class FaceVar final : public VarSurface {
 public:
-  FaceVar(std::shared_ptr<const FaceSurface> face, const FacePart& part)
-      : face_(std::move(face)), part_(part) {}
+  FaceVar(Surface face, const FacePart& part) : face_(std::move(face)), part_(part) {}
   void evaluate(float u, float v, std::span<float> out) const override {
     double uv[2];
     std::vector<double> value(out.size());
@@ -235,11 +187,11 @@ public:
   }
 
 private:
-  std::shared_ptr<const FaceSurface> face_;
+  Surface face_;
   FacePart part_;
 };
 
-/// A variable's values in the mesh, as OpenSubdiv takes them.
+/// A variable's values in the mesh.
 struct MeshVar {
   const TypedParam* source = nullptr;
   PatchVar head;
@@ -277,26 +229,26 @@ public:
     if (mesh_.loop &&
         std::any_of(mesh_.nvertices.begin(), mesh_.nvertices.end(), [](int n) { return n != 3; }))
       return slvm::Error{"the scheme \"loop\" takes triangles only"};
-    Refiner refiner = make_refiner();
-    if (!refiner)
+    const SubdivisionModule& module = subdivision_module();
+    if (!module.make) return slvm::Error{module.problem};
+    const std::unique_ptr<const LimitMesh> limit = module.make(mesh_, point_count_, corner_values());
+    if (!limit)
       return slvm::Error{
           "the faces do not make a mesh: one has too many corners, or a vertex too many edges"};
-    Bfr::RefinerSurfaceFactory<> factory(*refiner);
     bool all_quads = !mesh_.loop && std::all_of(mesh_.nvertices.begin(), mesh_.nvertices.end(),
                                                 [](int n) { return n == 4; });
     std::vector<Primitive> made;
     for (size_t face = 0; face < mesh_.nvertices.size(); ++face) {
-      auto surface = std::make_shared<FaceSurface>(positions_, 3);
-      auto n = static_cast<size_t>(mesh_.nvertices[face]);
-      if (factory.InitVertexSurface(static_cast<int>(face), &surface->surface())) {
-        surface->prepare();
-        FacePart part{surface->surface().GetParameterization()};
-        std::vector<std::shared_ptr<FaceSurface>> surfaces = var_surfaces(factory, static_cast<int>(face));
-        // Neighbours must halve their common side alike: one face in quarters, all in quarters.
-        for (size_t q = 0; q < (all_quads ? 1 : n); ++q) {
-          if (!all_quads) part.quarter = static_cast<int>(q);
-          add(surface, part, surfaces, face, made);
-        }
+      const Surface surface =
+          limit->surface(static_cast<int>(face), LimitMesh::Values::kVertex, positions_, 3, -1);
+      if (!surface) continue;
+      const std::vector<Surface> surfaces = var_surfaces(*limit, static_cast<int>(face));
+      FacePart part{surface->domain()};
+      // Neighbours must halve their common side alike: one face in quarters, all in quarters.
+      const int parts = all_quads ? 1 : mesh_.nvertices[face];
+      for (int q = 0; q < parts; ++q) {
+        if (!all_quads) part.quarter = q;
+        add(surface, part, surfaces, face, made);
       }
     }
     return made;
@@ -319,73 +271,25 @@ private:
     var.channel = channels_++;
   }
 
-  Refiner make_refiner() const {
-    using Topology = Far::TopologyDescriptor;
-    Topology t;
-    t.numVertices = static_cast<int>(point_count_);
-    t.numFaces = static_cast<int>(mesh_.nvertices.size());
-    t.numVertsPerFace = mesh_.nvertices.data();
-    t.vertIndicesPerFace = mesh_.vertices.data();
-    t.numCreases = static_cast<int>(mesh_.crease_sharpness.size());
-    t.creaseVertexIndexPairs = mesh_.crease_pairs.data();
-    t.creaseWeights = mesh_.crease_sharpness.data();
-    t.numCorners = static_cast<int>(mesh_.corners.size());
-    t.cornerVertexIndices = mesh_.corners.data();
-    t.cornerWeights = mesh_.corner_sharpness.data();
-    t.numHoles = static_cast<int>(mesh_.holes.size());
-    t.holeIndices = mesh_.holes.data();
-    std::vector<Topology::FVarChannel> channels;
+  std::vector<CornerValues> corner_values() const {
+    std::vector<CornerValues> out;
     for (const MeshVar& v : vars_)
-      if (v.channel >= 0) {
-        Topology::FVarChannel& c = channels.emplace_back();
-        c.numValues = static_cast<int>(v.values.size() / v.head.width());
-        c.valueIndices = v.indices.data();
-      }
-    t.numFVarChannels = static_cast<int>(channels.size());
-    t.fvarChannels = channels.data();
-
-    Sdc::Options options;
-    constexpr Sdc::Options::VtxBoundaryInterpolation kBoundary[] = {
-        Sdc::Options::VTX_BOUNDARY_NONE, Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER,
-        Sdc::Options::VTX_BOUNDARY_EDGE_ONLY};
-    options.SetVtxBoundaryInterpolation(kBoundary[mesh_.boundary]);
-    const Sdc::Options::FVarLinearInterpolation kFaceVarying[] = {
-        Sdc::Options::FVAR_LINEAR_ALL,
-        mesh_.propagate_corners ? Sdc::Options::FVAR_LINEAR_CORNERS_PLUS2
-                                : Sdc::Options::FVAR_LINEAR_CORNERS_PLUS1,
-        Sdc::Options::FVAR_LINEAR_NONE, Sdc::Options::FVAR_LINEAR_BOUNDARIES};
-    options.SetFVarLinearInterpolation(kFaceVarying[mesh_.facevarying_boundary]);
-    if (mesh_.chaikin) options.SetCreasingMethod(Sdc::Options::CREASE_CHAIKIN);
-    if (mesh_.smooth_triangles) options.SetTriangleSubdivision(Sdc::Options::TRI_SUB_SMOOTH);
-    using Factory = Far::TopologyRefinerFactory<Topology>;
-    Factory::Options create(mesh_.loop       ? Sdc::SCHEME_LOOP
-                            : mesh_.bilinear ? Sdc::SCHEME_BILINEAR
-                                             : Sdc::SCHEME_CATMARK,
-                            options);
-    create.validateFullTopology = true;
-    // What is wrong is said by the caller, not printed by the library.
-    Far::SetErrorCallback([](Far::ErrorType, const char*) {});
-    Far::SetWarningCallback([](const char*) {});
-    return Refiner(Factory::Create(t, create));
+      if (v.channel >= 0) out.push_back({static_cast<int>(v.values.size() / v.head.width()), v.indices});
+    return out;
   }
 
   /// In the order of the variables; null for constant and uniform ones.
-  std::vector<std::shared_ptr<FaceSurface>> var_surfaces(const Bfr::RefinerSurfaceFactory<>& factory,
-                                                         int face) {
-    std::vector<std::shared_ptr<FaceSurface>> out;
+  std::vector<Surface> var_surfaces(const LimitMesh& limit, int face) const {
+    std::vector<Surface> out;
+    using Values = LimitMesh::Values;
     for (const MeshVar& v : vars_) {
-      auto& s = out.emplace_back();
-      StorageClass storage = v.source->declaration.storage;
+      Surface& s = out.emplace_back();
+      const StorageClass storage = v.source->declaration.storage;
       if (!interpolates(storage)) continue;
-      s = std::make_shared<FaceSurface>(v.values, static_cast<int>(v.head.width()));
-      bool found = storage == StorageClass::kVertex ? factory.InitVertexSurface(face, &s->surface())
-                   : storage == StorageClass::kVarying
-                       ? factory.InitVaryingSurface(face, &s->surface())
-                       : factory.InitFaceVaryingSurface(face, &s->surface(), v.channel);
-      if (found)
-        s->prepare();
-      else
-        s = nullptr;
+      const Values kind = storage == StorageClass::kVertex    ? Values::kVertex
+                          : storage == StorageClass::kVarying ? Values::kVarying
+                                                              : Values::kFaceVarying;
+      s = limit.surface(face, kind, v.values, static_cast<int>(v.head.width()), v.channel);
     }
     return out;
   }
@@ -396,8 +300,7 @@ private:
     return mesh_.nvertices.size() < kMany ? 4 : 1;
   }
 
-  void add(const std::shared_ptr<const FaceSurface>& surface, const FacePart& part,
-           const std::vector<std::shared_ptr<FaceSurface>>& surfaces, size_t face,
+  void add(const Surface& surface, const FacePart& part, const std::vector<Surface>& surfaces, size_t face,
            std::vector<Primitive>& out) const {
     Primitive& primitive = out.emplace_back();
     if (surface->polynomial()) {
@@ -419,8 +322,7 @@ private:
     }
   }
 
-  static PatchVar part_var(PatchVar var, const std::shared_ptr<const FaceSurface>& surface,
-                           const FacePart& part) {
+  static PatchVar part_var(PatchVar var, const Surface& surface, const FacePart& part) {
     if (surface->polynomial()) {
       var.interpolation = Interpolation::kBicubic;
       var.values = bezier_values(*surface, part);
