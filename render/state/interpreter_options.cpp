@@ -341,7 +341,8 @@ void Interpreter::limit(const std::string& name, const slvm::Value& value) {
     options_.bucket_width = clamp(n[0], 4, 1024);
     options_.bucket_height = clamp(n[1], 4, 1024);
   } else if (name == "gridsize") {
-    options_.grid_size = clamp(n[0], 4, 65536);
+    constexpr float kLeast = 64; // what makes a grid costs as much as shading so many points
+    options_.grid_size = clamp(n[0], kLeast, 65536);
   } else if (name == "eyesplits") {
     options_.eye_splits = clamp(n[0], 0, 24);
   } else if (name == "othreshold") {
