@@ -237,7 +237,7 @@ void FrameRenderer::render_bucket(int i, int j, Worker& worker) {
     const GridTask& task = item.batch->tasks[item.task];
     const PrimitiveState& state = item.batch->state_of(item.task);
     // Of a solid all must be known, whatever is seen of it.
-    const bool hidden = state.solid ? item.zmin > samples.farthest()
+    const bool hidden = state.solid ? samples.hides(item.zmin)
                                     : samples.hides(task.raster_min, task.raster_max, item.zmin) ||
                                           masked(task, samples.covered());
     if (!hidden || !state.attributes->cull_hidden)

@@ -85,76 +85,105 @@ size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const
   return finder.count();
 }
 
-/// A moving micropolygon as each lane's sample sees it: at its time, through its point of the lens.
-class MovingFinder {
+/// Samples in time, and what the lens does to each of them.
+struct WideSample {
+  WideVec2 at;
+  V time;
+  WideVec2 shift; ///< of what has a defocus of 1
+  I numbers;
+};
+
+/// A micropolygon as each lane's sample sees it: at its time, through its point of the lens. kStill: it does
+/// not move.
+template <bool kStill> class MovingFinder {
 public:
   HWY_INLINE MovingFinder(const MovingQuad& q, bool both, const SampleField& field, QuadHit* hits)
-      : finder_(both, field.limit, hits), box_(q.low, q.high), q_(q),
-        lens_(reinterpret_cast<const float*>(field.lens)), focus_(field.focus) {
+      : finder_(both, field.limit, hits), box_(q.low, q.high), q_(q), lens_(field.lens_x != nullptr),
+        focus_(field.focus) {
     const float rate = 1 / (q.t1 - q.t0);
-    for (size_t c = 0; c < 4; ++c)
+    for (size_t c = 0; c < 4; ++c) {
       speed_[c] = (q.to[c] - q.from[c]) * rate;
+      defocus_[c] = focus_ - 1 / q.from[c].z;
+    }
   }
   size_t count() const { return finder_.count(); }
 
-  /// Those of `looked_at` that the box around all of the motion holds.
-  HWY_INLINE M near(const WideVec2& at, M looked_at) const { return hn::And(box_.contains(at), looked_at); }
-  HWY_INLINE void look(const WideVec2& at, V time, M looked_at, I samples) {
-    const V t0 = hn::Set(kWide, q_.t0), one = hn::Set(kWide, 1.0f), focus = hn::Set(kWide, focus_);
-    looked_at = hn::And(looked_at, hn::And(hn::Ge(time, t0), hn::Lt(time, hn::Set(kWide, q_.t1))));
-    time = hn::Sub(time, t0);
-    WideVec2 shift{hn::Zero(kWide), hn::Zero(kWide)}; // of what has a defocus of 1
-    if (lens_) {
-      const I pairs = hn::ShiftLeft<1>(samples);
-      shift = {hn::GatherIndex(kWide, lens_, pairs), hn::GatherIndex(kWide, lens_ + 1, pairs)};
-    }
+  /// `samples` fetches them, where they may be in it.
+  template <class Fetch> HWY_INLINE void look(const WideVec2& at, M looked_at, Fetch&& fetch) {
+    looked_at = hn::And(box_.contains(at), looked_at);
+    if (hn::AllFalse(kWide, looked_at)) return;
+    WideSample sample;
+    sample.at = at;
+    fetch(sample);
+    const V t0 = hn::Set(kWide, q_.t0);
+    looked_at =
+        hn::And(looked_at, hn::And(hn::Ge(sample.time, t0), hn::Lt(sample.time, hn::Set(kWide, q_.t1))));
+    const WideQuad quad = seen(sample, hn::Sub(sample.time, t0));
+    finder_.add(quad, quad.cover(at, looked_at), sample.numbers);
+  }
+
+private:
+  /// `time`: since t0.
+  HWY_INLINE WideQuad seen(const WideSample& sample, V time) const {
     WideQuad quad;
     for (size_t c = 0; c < 4; ++c) {
       const Vec3 from = q_.from[c], speed = speed_[c];
       WideVec2& p = quad.p[c];
-      p = {hn::Add(hn::Set(kWide, from.x), hn::Mul(hn::Set(kWide, speed.x), time)),
-           hn::Add(hn::Set(kWide, from.y), hn::Mul(hn::Set(kWide, speed.y), time))};
-      quad.z[c] = hn::Add(hn::Set(kWide, from.z), hn::Mul(hn::Set(kWide, speed.z), time));
+      p = {hn::Set(kWide, from.x), hn::Set(kWide, from.y)};
+      quad.z[c] = hn::Set(kWide, from.z);
+      if constexpr (!kStill) {
+        p.x = hn::Add(p.x, hn::Mul(hn::Set(kWide, speed.x), time));
+        p.y = hn::Add(p.y, hn::Mul(hn::Set(kWide, speed.y), time));
+        quad.z[c] = hn::Add(quad.z[c], hn::Mul(hn::Set(kWide, speed.z), time));
+      }
       if (!lens_) continue;
-      const V defocus = hn::Sub(focus, hn::Div(one, quad.z[c]));
-      p.x = hn::Add(p.x, hn::Mul(shift.x, defocus));
-      p.y = hn::Add(p.y, hn::Mul(shift.y, defocus));
+      V defocus = hn::Set(kWide, defocus_[c]);
+      if constexpr (!kStill)
+        defocus = hn::Sub(hn::Set(kWide, focus_), hn::Div(hn::Set(kWide, 1.0f), quad.z[c]));
+      p.x = hn::Add(p.x, hn::Mul(sample.shift.x, defocus));
+      p.y = hn::Add(p.y, hn::Mul(sample.shift.y, defocus));
     }
-    finder_.add(quad, quad.cover(at, looked_at), samples);
+    return quad;
   }
 
-private:
   Finder finder_;
   WideBox box_;
   const MovingQuad& q_;
-  const float* lens_; ///< null: none
+  bool lens_;
   Vec3 speed_[4];
+  float defocus_[4]; ///< of what is still
   float focus_;
 };
 
-size_t find_moving(const MovingQuad& q, bool both, const SampleField& field, const uint32_t* order,
-                   size_t columns, const SampleWindow& window, QuadHit* hits) {
-  MovingFinder finder(q, both, field, hits);
-  for (size_t j = window.j0; j < window.j1; ++j)
-    for (size_t i = window.i0; i < window.i1; i += hn::Lanes(kWide)) {
-      const I samples = hn::LoadU(kIndices, reinterpret_cast<const int32_t*>(order) + j * columns + i);
-      const WideVec2 at{hn::GatherIndex(kWide, field.x, samples), hn::GatherIndex(kWide, field.y, samples)};
-      const M looked_at = finder.near(at, hn::FirstN(kWide, window.i1 - i));
-      if (!hn::AllFalse(kWide, looked_at))
-        finder.look(at, hn::GatherIndex(kWide, field.time, samples), looked_at, samples);
-    }
+/// `numbers` tells those of samples.
+template <bool kStill, class Numbers>
+size_t find_moving(const MovingQuad& q, bool both, const SampleField& field, const SampleWindow& window,
+                   QuadHit* hits, Numbers&& numbers) {
+  MovingFinder<kStill> finder(q, both, field, hits);
+  for_window(field.width, window, [&](const auto& rows, M in_window) HWY_ATTR {
+    finder.look({rows.load(field.x), rows.load(field.y)}, in_window, [&](WideSample& sample) HWY_ATTR {
+      sample.time = rows.load(field.time);
+      if (field.lens_x) sample.shift = {rows.load(field.lens_x), rows.load(field.lens_y)};
+      sample.numbers = numbers(rows);
+    });
+  });
   return finder.count();
+}
+
+size_t find_in_stratum(const MovingQuad& q, bool both, const StratumField& field, const SampleWindow& window,
+                       QuadHit* hits) {
+  auto numbers = [&](const auto& rows) HWY_ATTR {
+    return hn::BitCast(kIndices, rows.load(reinterpret_cast<const float*>(field.numbers)));
+  };
+  return q.still() ? find_moving<true>(q, both, field, window, hits, numbers)
+                   : find_moving<false>(q, both, field, window, hits, numbers);
 }
 
 size_t find_slow(const MovingQuad& q, bool both, const SampleField& field, const SampleWindow& window,
                  QuadHit* hits) {
-  MovingFinder finder(q, both, field, hits);
-  for_window(field.width, window, [&](const auto& rows, M in_window) HWY_ATTR {
-    const WideVec2 at{rows.load(field.x), rows.load(field.y)};
-    const M looked_at = finder.near(at, in_window);
-    if (!hn::AllFalse(kWide, looked_at)) finder.look(at, rows.load(field.time), looked_at, rows.numbers());
-  });
-  return finder.count();
+  auto numbers = [](const auto& rows) HWY_ATTR { return rows.numbers(); };
+  return q.still() ? find_moving<true>(q, both, field, window, hits, numbers)
+                   : find_moving<false>(q, both, field, window, hits, numbers);
 }
 
 } // namespace HWY_NAMESPACE
@@ -164,7 +193,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace render {
 const auto kFindStill = SL_BEST(find_still);
-const auto kFindMoving = SL_BEST(find_moving);
+const auto kFindInStratum = SL_BEST(find_in_stratum);
 const auto kFindSlow = SL_BEST(find_slow);
 
 size_t quad_hits(const Vec3 (&p)[4], bool both, const SampleField& field, const SampleWindow& window,
@@ -172,9 +201,9 @@ size_t quad_hits(const Vec3 (&p)[4], bool both, const SampleField& field, const 
   return kFindStill(p, both, field, window, hits);
 }
 
-size_t moving_hits(const MovingQuad& quad, bool both, const SampleField& field, const uint32_t* order,
-                   size_t columns, const SampleWindow& window, QuadHit* hits) {
-  return kFindMoving(quad, both, field, order, columns, window, hits);
+size_t moving_hits(const MovingQuad& quad, bool both, const StratumField& field, const SampleWindow& window,
+                   QuadHit* hits) {
+  return kFindInStratum(quad, both, field, window, hits);
 }
 
 size_t slow_hits(const MovingQuad& quad, bool both, const SampleField& field, const SampleWindow& window,

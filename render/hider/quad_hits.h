@@ -4,6 +4,7 @@
 #include "render/hider/sample_window.h"
 #include "render/state/math.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,12 +25,19 @@ struct QuadHit {
 /// All samples, in rows. The arrays are kPadding longer than there are samples.
 struct SampleField {
   static constexpr size_t kPadding = 16;
-  const float *x, *y;          ///< raster
-  const float* limit;          ///< only what is nearer is a hit; null: everything is
-  size_t width;                ///< samples in a row
-  const float* time = nullptr; ///< part of the shutter time; only where things move
-  const Vec2* lens = nullptr;  ///< shift on the raster of what has a defocus of 1; null: no lens
-  float focus = 0;             ///< 1 / focal distance
+  const float *x = nullptr, *y = nullptr; ///< raster
+  const float* limit = nullptr;           ///< only what is nearer is a hit; null: everything is
+  size_t width = 0;                       ///< samples in a row
+  const float* time = nullptr;            ///< part of the shutter time; only where things move
+  /// Shift on the raster of what has a defocus of 1; null: no lens.
+  const float *lens_x = nullptr, *lens_y = nullptr;
+  float focus = 0; ///< 1 / focal distance
+};
+
+/// Those of a stratum, one of each pixel: a row of samples for a row of pixels. The limits are those of all
+/// samples.
+struct StratumField : SampleField {
+  const uint32_t* numbers = nullptr; ///< of the samples
 };
 
 /// Raster x and y, camera z of the corners at two parts of the shutter time; in a straight line between.
@@ -37,6 +45,8 @@ struct MovingQuad {
   Vec3 from[4], to[4];
   float t0, t1;
   Vec2 low, high; ///< around all of it, lens included
+
+  bool still() const { return std::equal(from, from + 4, to); }
 };
 
 /// `both`: of a folded micropolygon that covers a sample twice both triangles count, else the first. Writes
@@ -45,10 +55,9 @@ struct MovingQuad {
 size_t quad_hits(const Vec3 (&p)[4], bool both, const SampleField& field, const SampleWindow& window,
                  QuadHit* hits);
 
-/// The same of samples from [t0, t1). `order` tells the samples to look at, of each pixel one: `columns` to a
-/// row, kPadding longer than needed. The window is one of pixels.
-size_t moving_hits(const MovingQuad& quad, bool both, const SampleField& field, const uint32_t* order,
-                   size_t columns, const SampleWindow& window, QuadHit* hits);
+/// The same of samples from [t0, t1) in a stratum. The window is one of pixels.
+size_t moving_hits(const MovingQuad& quad, bool both, const StratumField& field, const SampleWindow& window,
+                   QuadHit* hits);
 
 /// The same of all samples of a window, of what moves so little that most of them may see it.
 size_t slow_hits(const MovingQuad& quad, bool both, const SampleField& field, const SampleWindow& window,

@@ -59,10 +59,15 @@ void SampleBuffer::begin(PixelRect rect) {
   pattern_.cover(covered_);
   origin_ = {static_cast<float>(covered_.x0), static_cast<float>(covered_.y0)};
   layers_.begin(pattern_.count());
-  lens_.clear();
-  for (size_t i = 0; settings_.lens && i < pattern_.count(); ++i)
-    lens_.push_back(settings_.lens->lens_to_raster(pattern_.lens(i)));
-  if (settings_.lens) lens_.resize(pattern_.count() + SampleField::kPadding);
+  strata_known_ = false;
+  if (!settings_.lens) return;
+  lens_x_.resize(pattern_.count() + SampleField::kPadding);
+  lens_y_.resize(lens_x_.size());
+  for (size_t i = 0; i < pattern_.count(); ++i) {
+    const Vec2 shift = settings_.lens->lens_to_raster(pattern_.lens(i));
+    lens_x_[i] = shift.x;
+    lens_y_[i] = shift.y;
+  }
 }
 
 void SampleBuffer::draw(const ShadedGrid& grid) {
@@ -93,7 +98,7 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
 }
 
 bool SampleBuffer::hides(Vec2 low, Vec2 high, float z) const {
-  if (z > farthest()) return true;
+  if (hides(z)) return true;
   SampleWindow window;
   return !find_window((low - origin_) * density_, (high - origin_) * density_, pattern_.width(),
                       pattern_.height(), window) ||
@@ -143,9 +148,20 @@ SampleField SampleBuffer::field(const ShadedGrid& grid) const {
   SampleField out{pattern_.x(), pattern_.y(), limits, static_cast<size_t>(pattern_.width())};
   out.time = pattern_.times();
   if (settings_.lens) {
-    out.lens = lens_.data();
+    out.lens_x = lens_x_.data();
+    out.lens_y = lens_y_.data();
     out.focus = settings_.lens->defocus(kInfinity);
   }
+  return out;
+}
+
+StratumField SampleBuffer::field(const ShadedGrid& grid, int stratum) {
+  const SampleField all = field(grid);
+  if (!strata_known_) strata_.sort(pattern_, all);
+  strata_known_ = true;
+  StratumField out = strata_.of(stratum);
+  out.limit = all.limit;
+  out.focus = all.focus;
   return out;
 }
 
@@ -204,13 +220,16 @@ void SampleBuffer::draw_micropolygon(const ShadedGrid& grid, size_t k) {
   hit_all(grid, k, quad_hits(p, grid.solid != nullptr, field(grid), window, hits_.data()));
 }
 
-/// Makes room for what the lens does to the box: `shift`, by the defocus of its depths.
-void SampleBuffer::add_lens(const Box& shift, Box& box) const {
+SampleBuffer::Defocus SampleBuffer::defocus(const Box& box) const {
   const Camera* lens = settings_.lens;
-  if (!lens) return;
-  float a = lens->defocus(box.min.z), b = lens->defocus(box.max.z);
-  box.min += glm::min(glm::min(shift.min * a, shift.max * a), glm::min(shift.min * b, shift.max * b));
-  box.max += glm::max(glm::max(shift.min * a, shift.max * a), glm::max(shift.min * b, shift.max * b));
+  return lens ? Defocus{lens->defocus(box.min.z), lens->defocus(box.max.z)} : Defocus{0, 0};
+}
+
+void SampleBuffer::add_lens(const Box& shift, const Defocus& by, Box& box) {
+  const Vec2 a = Vec2(shift.min) * by.near, b = Vec2(shift.max) * by.near, c = Vec2(shift.min) * by.far,
+             d = Vec2(shift.max) * by.far;
+  box.min += Vec3(glm::min(glm::min(a, b), glm::min(c, d)), 0);
+  box.max += Vec3(glm::max(glm::max(a, b), glm::max(c, d)), 0);
 }
 
 namespace {
@@ -236,13 +255,28 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
     for (const Vec3Planes& later : grid.later)
       everywhere.add(later[c]);
   }
-  add_lens(lens_box_, everywhere);
+  const Box unblurred = everywhere;
+  const Defocus blur = defocus(everywhere);
+  if (settings_.lens) add_lens(lens_box_, blur, everywhere);
   SampleWindow window;
   if (!find_window(Vec2(everywhere.min) - origin_ - kSlack, Vec2(everywhere.max) - origin_ + kSlack,
                    covered_.width(), covered_.height(), window))
     return;
   if (stays_near(everywhere)) {
     draw_slow(grid, k);
+    return;
+  }
+  if (grid.times.empty()) {
+    MovingQuad quad;
+    quad.t0 = 0;
+    quad.t1 = 1;
+    for (size_t c = 0; c < 4; ++c)
+      quad.from[c] = quad.to[c] = grid.position[corner[c]];
+    for (int s = 0; s < pattern_.strata(); ++s) {
+      Box box = unblurred;
+      add_lens(lens_boxes_[static_cast<size_t>(s)], blur, box);
+      draw_in_box(grid, k, box, quad, s);
+    }
     return;
   }
   auto n = static_cast<float>(pattern_.strata());
@@ -284,7 +318,7 @@ void SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k) {
       box.add(quad.from[c]);
       box.add(quad.to[c]);
     }
-    add_lens(lens_box_, box);
+    if (settings_.lens) add_lens(lens_box_, defocus(box), box);
     quad.low = Vec2(box.min) - kSlack;
     quad.high = Vec2(box.max) + kSlack;
     SampleWindow samples;
@@ -302,23 +336,27 @@ void SampleBuffer::draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& qu
     box.add(quad.from[c]);
     box.add(quad.to[c]);
   }
-  if (settings_.lens) add_lens(lens_boxes_[static_cast<size_t>(stratum)], box);
+  if (settings_.lens) add_lens(lens_boxes_[static_cast<size_t>(stratum)], defocus(box), box);
+  draw_in_box(grid, k, box, quad, stratum);
+}
+
+/// `box`: around all of it, lens included.
+void SampleBuffer::draw_in_box(const ShadedGrid& grid, size_t k, const Box& box, MovingQuad& quad,
+                               int stratum) {
   quad.low = Vec2(box.min) - kSlack;
   quad.high = Vec2(box.max) + kSlack;
   SampleWindow window;
   if (!find_window(quad.low - origin_, quad.high - origin_, covered_.width(), covered_.height(), window))
     return;
   make_room(window);
-  hit_all(grid, k,
-          moving_hits(quad, grid.solid != nullptr, field(grid), pattern_.of_stratum(stratum),
-                      static_cast<size_t>(covered_.width()), window, hits_.data()));
+  hit_all(grid, k, moving_hits(quad, grid.solid != nullptr, field(grid, stratum), window, hits_.data()));
 }
 
 bool SampleBuffer::removed(size_t index, float z) const {
   if (settings_.mask && settings_.mask->hides(pattern_.at(index) * settings_.mask_scale, z)) return true;
   if (settings_.clipping_planes.empty()) return false;
   Vec2 at = pattern_.at(index);
-  if (settings_.lens) at -= lens_[index] * settings_.lens->defocus(z);
+  if (settings_.lens) at -= Vec2(lens_x_[index], lens_y_[index]) * settings_.lens->defocus(z);
   Vec3 p = settings_.camera->unproject(at, z);
   for (const ClippingPlane& plane : settings_.clipping_planes)
     if (plane.hides(p)) return true;

@@ -10,6 +10,7 @@
 #include "render/hider/sample_pattern.h"
 #include "render/hider/shaded_grid.h"
 #include "render/hider/solid_hits.h"
+#include "render/hider/strata_samples.h"
 #include "render/state/options.h"
 
 #include <cstdint>
@@ -49,8 +50,8 @@ public:
   PixelRect covered() const { return covered_; }
   /// The grids of a solid come one after another, all of them, whether they can be seen or not.
   void draw(const ShadedGrid& grid);
-  /// Camera z beyond which nothing can be seen any more; infinite while a sample is open.
-  float farthest() const { return layers_.farthest(); }
+  /// Whether nothing beyond camera z can be seen any more; never while a sample is open.
+  bool hides(float z) const { return layers_.hides(z); }
   /// Whether nothing beyond z can be seen in a rectangle of the raster, as far as the samples cover it.
   bool hides(Vec2 low, Vec2 high, float z) const;
   /// Composites and filters into the image's pixels of the bucket. Call once for each bucket, after the last
@@ -65,8 +66,15 @@ private:
   void draw_moving(const ShadedGrid& grid, size_t k);
   void draw_slow(const ShadedGrid& grid, size_t k);
   void draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum);
-  void add_lens(const Box& shift, Box& box) const;
+  void draw_in_box(const ShadedGrid& grid, size_t k, const Box& box, MovingQuad& quad, int stratum);
+  /// What the lens does to things between two depths: `shift`, of what has a defocus of 1, times these.
+  struct Defocus {
+    float near, far;
+  };
+  Defocus defocus(const Box& box) const;
+  static void add_lens(const Box& shift, const Defocus& by, Box& box);
   SampleField field(const ShadedGrid& grid) const;
+  StratumField field(const ShadedGrid& grid, int stratum);
   /// Of a micropolygon: three corners, the first of which is its own, and their weights.
   struct Spot {
     size_t corners[3];
@@ -92,10 +100,13 @@ private:
   SampleLayers layers_;
   std::vector<QuadHit> hits_;
   std::vector<size_t> not_painted_; ///< micropolygons of a grid
-  std::vector<Vec2> lens_;          ///< each sample's point of the lens, as raster shift without defocus
-  std::vector<Box> lens_boxes_;     ///< the same, of each stratum
-  Box lens_box_;                    ///< and of all of them
-  size_t aovs_;                     ///< floats of variables for each sample
+  /// Each sample's point of the lens, as raster shift of what has a defocus of 1.
+  std::vector<float> lens_x_, lens_y_;
+  StrataSamples strata_;
+  bool strata_known_ = false;              ///< of this bucket
+  std::vector<Box> lens_boxes_;            ///< the same, of each stratum
+  Box lens_box_;                           ///< and of all of them
+  size_t aovs_;                            ///< floats of variables for each sample
   std::shared_ptr<const SolidTree> solid_; ///< whose grids are being drawn
   SolidHits solid_hits_;
   std::vector<float> solid_aov_, blended_aov_;

@@ -49,7 +49,8 @@ SampleLayers::SampleLayers(const LayerSettings& settings)
 
 void SampleLayers::begin(size_t count) {
   count_ = open_ = count;
-  farthest_known_ = false;
+  farthest_ = kInfinity;
+  witness_ = 0;
   const size_t size = count + SampleField::kPadding;
   for (size_t c = 0; c < planes_.size(); ++c) // opacities: see make_layers()
     if (c < Image::kOi || c > Image::kAlpha) planes_[c].assign(size, c == Image::kZ ? kInfinity : 0.0f);
@@ -61,7 +62,6 @@ void SampleLayers::begin(size_t count) {
 
 void SampleLayers::painted(size_t count) {
   open_ -= count;
-  farthest_known_ = false;
 }
 
 void SampleLayers::make_layers() {
@@ -88,7 +88,6 @@ void SampleLayers::set_variables(size_t sample, const float* values) {
 }
 
 void SampleLayers::cover(size_t sample, float z, const SampleSurface& surface) {
-  farthest_known_ = false;
   float& nearest = planes_[Image::kZ][sample];
   float& limit = settings_.midpoint ? second_[sample] : nearest;
   const bool was_open = limit == kInfinity, in_front = z < nearest;
@@ -115,13 +114,24 @@ uint32_t SampleLayers::keep(const SampleSurface& s) {
   return static_cast<uint32_t>(number);
 }
 
-float SampleLayers::farthest() const {
-  if (open_ > 0) return kInfinity;
-  if (!farthest_known_) {
-    farthest_ = greatest(std::span(limits(), count_));
-    farthest_known_ = true;
+bool SampleLayers::hides(float z) const {
+  if (open_ > 0) return false;
+  if (z > farthest_) return true;
+  const std::span<const float> all(limits(), count_);
+  if (all[witness_] >= z) return false;
+  constexpr size_t kBlock = 256;
+  float farthest = 0;
+  for (size_t k = 0; k < count_; k += kBlock) {
+    const std::span<const float> block = all.subspan(k, std::min(kBlock, count_ - k));
+    const float most = greatest(block);
+    if (!(z > most)) {
+      witness_ = static_cast<size_t>(std::find(block.begin(), block.end(), most) - all.begin());
+      return false;
+    }
+    farthest = std::max(farthest, most);
   }
-  return farthest_;
+  farthest_ = farthest;
+  return true;
 }
 
 bool SampleLayers::hides(const SampleWindow& window, size_t width, float z) const {

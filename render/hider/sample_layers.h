@@ -61,8 +61,8 @@ public:
     first_[sample] = static_cast<uint32_t>(fragments_.size() - 1);
   }
 
-  /// z beyond which nothing can be seen any more; infinite while a sample is open.
-  float farthest() const;
+  /// Whether nothing beyond z can be seen any more.
+  bool hides(float z) const;
   /// Whether nothing beyond z can be seen in a window of rows of `width` samples.
   bool hides(const SampleWindow& window, size_t width, float z) const;
 
@@ -107,8 +107,9 @@ private:
   std::vector<SampleSpan> filled_;
   std::vector<const float*> finished_;
   size_t open_ = 0; ///< samples that a surface at any depth would change
-  mutable float farthest_ = kInfinity;
-  mutable bool farthest_known_ = false;
+  // Depths only become smaller, so that these hold for some time.
+  mutable float farthest_ = kInfinity; ///< no depth is greater
+  mutable size_t witness_ = 0;         ///< a sample that has been found far away
 };
 
 } // namespace render

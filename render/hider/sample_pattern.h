@@ -41,6 +41,7 @@ public:
 
   int width() const { return width_; } ///< samples in a row
   int height() const { return height_; }
+  int columns() const { return columns_; } ///< pixels in a row
   size_t count() const { return count_; }
   Vec2 at(size_t k) const { return {x_[k], y_[k]}; } ///< raster
   const float* x() const { return x_.data(); }       ///< kPadding longer than count()

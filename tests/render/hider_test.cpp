@@ -241,16 +241,24 @@ TEST(Hider, what_is_painted_over_a_hole_is_seen) {
   }
 }
 
-TEST(Hider, farthest_is_known_once_all_samples_are_closed) {
+TEST(Hider, what_is_behind_all_is_hidden_once_all_samples_are_closed) {
   SampleBuffer b(settings());
   b.begin({0, 0, 4, 4});
-  EXPECT_EQ(b.farthest(), kInfinity);
+  EXPECT_FALSE(b.hides(1e9f));
   b.draw(sheet(5, kWhite, kWhite * 0.5f));
-  EXPECT_EQ(b.farthest(), kInfinity);
+  EXPECT_FALSE(b.hides(1e9f));
   b.draw(sheet(3, kWhite, kWhite));
-  EXPECT_EQ(b.farthest(), 3);
+  for (int twice = 0; twice < 2; ++twice) {
+    EXPECT_FALSE(b.hides(3));
+    EXPECT_TRUE(b.hides(3.01f));
+  }
+  b.draw(quad({Vec3(0, 0, 2), Vec3(4, 0, 2), Vec3(0, 3, 2), Vec3(4, 3, 2)}, kWhite, kWhite));
+  EXPECT_FALSE(b.hides(2.5f));
   b.draw(sheet(2, kWhite, kWhite));
-  EXPECT_EQ(b.farthest(), 2);
+  EXPECT_TRUE(b.hides(2.5f));
+  EXPECT_FALSE(b.hides(2));
+  b.begin({4, 0, 8, 4});
+  EXPECT_FALSE(b.hides(2.5f));
 }
 
 TEST(Hider, what_is_behind_is_hidden_only_where_something_is_in_front) {

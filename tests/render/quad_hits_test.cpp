@@ -2,6 +2,7 @@
 #include "render/hider/quad_hits.h"
 
 #include "render/hider/sample_pattern.h"
+#include "render/hider/strata_samples.h"
 #include "render/hider/window_weights.h"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,19 @@ SampleField field_of(const SamplePattern& pattern) {
   out.time = pattern.times();
   return out;
 }
+
+/// What the lens does to each sample, for a lens so large.
+struct LensPlanes {
+  std::vector<float> x, y;
+
+  LensPlanes(const SamplePattern& pattern, float size)
+      : x(pattern.count() + SampleField::kPadding), y(x.size()) {
+    for (size_t k = 0; k < pattern.count(); ++k) {
+      x[k] = pattern.lens(k).x * size;
+      y[k] = pattern.lens(k).y * size;
+    }
+  }
+};
 
 /// Twice the signed area of a triangle.
 double area(Vec2 a, Vec2 b, Vec2 c) {
@@ -112,11 +126,12 @@ TEST(QuadHits, moving_quads_are_where_they_are_at_each_samples_time) {
   SamplePattern pattern(kSize, true, true);
   pattern.cover(kArea);
   SampleField field = field_of(pattern);
-  std::vector<Vec2> lens;
-  for (size_t k = 0; k < pattern.count() + SampleField::kPadding; ++k)
-    lens.push_back(k < pattern.count() ? pattern.lens(k) * 0.5f : Vec2(0.0f));
-  field.lens = lens.data();
+  const LensPlanes lens(pattern, 0.5f);
+  field.lens_x = lens.x.data();
+  field.lens_y = lens.y.data();
   field.focus = 0.5f;
+  StrataSamples strata;
+  strata.sort(pattern, field);
   std::mt19937 random(11);
   std::uniform_real_distribution<float> x(-1, 6), y(-1, 5), z(1, 3);
   SampleWindow pixels{0, 5, 0, 4};
@@ -130,10 +145,12 @@ TEST(QuadHits, moving_quads_are_where_they_are_at_each_samples_time) {
     quad.high = Vec2(99);
     for (size_t c = 0; c < 4; ++c) {
       quad.from[c] = {x(random), y(random), z(random)};
-      quad.to[c] = {x(random), y(random), z(random)};
+      quad.to[c] = round % 3 == 0 ? quad.from[c] : Vec3(x(random), y(random), z(random));
     }
     for (int s = 0; s < pattern.strata(); ++s) {
-      size_t count = moving_hits(quad, true, field, pattern.of_stratum(s), 5, pixels, room.data());
+      StratumField stratum = strata.of(s);
+      stratum.focus = field.focus;
+      size_t count = moving_hits(quad, true, stratum, pixels, room.data());
       Found found{{room.begin(), room.begin() + static_cast<std::ptrdiff_t>(count)}};
       for (size_t pixel = 0; pixel < pixels.count(); ++pixel) {
         size_t k = pattern.of_stratum(s)[pixel];
@@ -145,7 +162,7 @@ TEST(QuadHits, moving_quads_are_where_they_are_at_each_samples_time) {
         Vec3 p[4];
         for (size_t c = 0; c < 4; ++c) {
           p[c] = glm::mix(quad.from[c], quad.to[c], (t - quad.t0) / (quad.t1 - quad.t0));
-          p[c] += Vec3(lens[k] * (field.focus - 1 / p[c].z), 0);
+          p[c] += Vec3(Vec2(lens.x[k], lens.y[k]) * (field.focus - 1 / p[c].z), 0);
         }
         expect_hit(found, k, QuadPart::kFirst, pattern.at(k), p[0], p[1], p[3]);
         expect_hit(found, k, QuadPart::kSecond, pattern.at(k), p[0], p[3], p[2]);
@@ -157,17 +174,19 @@ TEST(QuadHits, moving_quads_are_where_they_are_at_each_samples_time) {
 TEST(QuadHits, slow_ones_are_those_of_all_strata) {
   SamplePattern pattern(kSize, true, true);
   pattern.cover(kArea);
-  std::vector<Vec2> lens;
-  for (size_t k = 0; k < pattern.count(); ++k)
-    lens.push_back(pattern.lens(k) * 2.0f);
-  lens.resize(lens.size() + SampleField::kPadding);
+  const LensPlanes lens(pattern, 2.0f);
   std::mt19937 random(12);
   std::uniform_real_distribution<float> x(-1, 6), y(-1, 5), z(1, 3), step(-1, 1);
   for (int round = 0; round < 50; ++round) {
     SampleField field{pattern.x(), pattern.y(), nullptr, static_cast<size_t>(pattern.width())};
     field.time = pattern.times();
-    if (round % 2 == 0) field.lens = lens.data();
+    if (round % 2 == 0) {
+      field.lens_x = lens.x.data();
+      field.lens_y = lens.y.data();
+    }
     field.focus = 0.6f;
+    StrataSamples strata;
+    strata.sort(pattern, field);
     MovingQuad quad;
     quad.t0 = round % 3 == 0 ? 0.25f : 0;
     quad.t1 = round % 3 == 1 ? 0.75f : 1;
@@ -175,7 +194,8 @@ TEST(QuadHits, slow_ones_are_those_of_all_strata) {
     quad.high = Vec2(99);
     for (size_t c = 0; c < 4; ++c) {
       quad.from[c] = {x(random), y(random), z(random)};
-      quad.to[c] = quad.from[c] + Vec3(step(random), step(random), 0.3f * step(random));
+      quad.to[c] = quad.from[c];
+      if (round % 5 > 0) quad.to[c] += Vec3(step(random), step(random), 0.3f * step(random));
     }
     const SampleWindow all{0, static_cast<size_t>(pattern.width()), 0, static_cast<size_t>(pattern.height())};
     std::vector<QuadHit> slow(2 * all.count() + SampleField::kPadding), listed;
@@ -183,7 +203,9 @@ TEST(QuadHits, slow_ones_are_those_of_all_strata) {
     std::vector<QuadHit> room(2 * pattern.count() + SampleField::kPadding);
     const SampleWindow pixels{0, static_cast<size_t>(kArea.width()), 0, static_cast<size_t>(kArea.height())};
     for (int s = 0; s < pattern.strata(); ++s) {
-      size_t count = moving_hits(quad, true, field, pattern.of_stratum(s), pixels.i1, pixels, room.data());
+      StratumField stratum = strata.of(s);
+      stratum.focus = field.focus;
+      size_t count = moving_hits(quad, true, stratum, pixels, room.data());
       listed.insert(listed.end(), room.begin(), room.begin() + static_cast<std::ptrdiff_t>(count));
     }
     auto order = [](const QuadHit& a, const QuadHit& b) {
