@@ -138,10 +138,20 @@ void SamplePattern::cover(PixelRect area) {
   if (size_.levels) add_levels(area);
 }
 
+namespace {
+
+/// Part `within`, [0, 1), of one of n strata of [0, 1): never that of the next one, by rounding.
+float in_stratum(size_t stratum, float within, size_t n) {
+  const auto first = static_cast<float>(stratum), all = static_cast<float>(n);
+  const float at = (first + within) / all, end = (first + 1) / all;
+  return at < end ? at : std::nextafter(end, 0.0f);
+}
+
+} // namespace
+
 void SamplePattern::add_levels(PixelRect area) {
   level_.resize(count_);
   std::vector<int> order(static_cast<size_t>(strata_));
-  auto n = static_cast<float>(strata_);
   for (int row = 0; row < area.height(); ++row)
     for (int column = 0; column < area.width(); ++column) {
       int x = area.x0 + column, y = area.y0 + row;
@@ -150,9 +160,9 @@ void SamplePattern::add_levels(PixelRect area) {
         int cell = order[static_cast<size_t>(s)];
         int i = column * size_.xsamples + cell % size_.xsamples,
             j = row * size_.ysamples + cell / size_.xsamples;
-        float within = upper_unit(hash_of(x, y, kLevel + 64 * static_cast<uint64_t>(s)));
+        const float within = upper_unit(hash_of(x, y, kLevel + 64 * static_cast<uint64_t>(s)));
         level_[static_cast<size_t>(j) * static_cast<size_t>(width_) + static_cast<size_t>(i)] =
-            std::min((static_cast<float>(s) + within) / n, 0x1.fffffep-1f);
+            in_stratum(static_cast<size_t>(s), within, order.size());
       }
     }
 }
@@ -206,7 +216,7 @@ void SamplePattern::add_strata(PixelRect area) {
         size_t pixel = static_cast<size_t>(row) * static_cast<size_t>(columns_) + static_cast<size_t>(column);
         of_stratum_[s * pixels() + pixel] = static_cast<uint32_t>(k);
         uint64_t h = hash_of(x, y, kTime + 64 * s);
-        time_[k] = std::min((static_cast<float>(s) + upper_unit(h)) / static_cast<float>(n), 0x1.fffffep-1f);
+        time_[k] = in_stratum(s, upper_unit(h), n);
         if (!with_lens_) continue;
         uint64_t g = hash_of(x, y, kLens + 64 * s);
         lens_[k] = square_to_disk(lens_corner(s) + cell_size * Vec2(upper_unit(g), lower_unit(g)));

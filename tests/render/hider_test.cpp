@@ -279,6 +279,21 @@ TEST(Hider, what_is_behind_is_hidden_only_where_something_is_in_front) {
   EXPECT_TRUE(b.hides({8, 0}, {12, 4}, 3.1f));
 }
 
+TEST(SamplePattern, times_belong_to_their_strata) {
+  // Of so many samples some come so near to the end of their stratum that sums are rounded to it.
+  constexpr int kSide = 256;
+  SamplePattern pattern({8, 8, true}, true, false);
+  pattern.cover({0, 0, kSide, kSide});
+  const auto n = static_cast<float>(pattern.strata());
+  size_t outside = 0;
+  for (int s = 0; s < pattern.strata(); ++s)
+    for (size_t pixel = 0; pixel < size_t{kSide} * kSide; ++pixel) {
+      const float time = pattern.time(pattern.of_stratum(s)[pixel]);
+      outside += time < static_cast<float>(s) / n || time >= static_cast<float>(s + 1) / n;
+    }
+  EXPECT_EQ(outside, 0u);
+}
+
 TEST(SamplePattern, knows_small_places_without_samples) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> place(-70, 70), length(0, 0.8f);
