@@ -209,6 +209,7 @@ void Renderer::Impl::render(Scene& frame) {
   flush();
   if (s.progress) s.progress(0);
   FrameServices all(frame, machine, shaders, clouds, settings.print);
+  if (thread_count(s.threads) == 1) all.rays.set_alone();
   VmShading shading(machine, shaders, all.services);
   s.make_content = [&](const Procedural& p, float area) {
     SceneContent content = interpreter.make_content(p, area);

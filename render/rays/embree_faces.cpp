@@ -68,7 +68,9 @@ void commit_scene(RTCScene scene) {
   tbb::this_task_arena::isolate([&] { embree().rtcCommitScene(scene); });
 }
 
-RayDevice::RayDevice() : impl_(std::make_unique<Impl>()) {}
+RayDevice::RayDevice(bool alone) : impl_(std::make_unique<Impl>()) {
+  impl_->alone = alone;
+}
 RayDevice::~RayDevice() = default;
 const std::string& RayDevice::problem() const {
   return impl_->problem;

@@ -5,8 +5,11 @@
 #include "render/rays/embree_library.h"
 #include "render/rays/embree_world.h"
 
+#include <tbb/global_control.h>
+
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 namespace render {
 
@@ -20,6 +23,7 @@ struct RayDevice::Impl {
     std::call_once(made, [this] {
       problem = embree().problem;
       if (!problem.empty()) return;
+      if (alone) one_thread.emplace(tbb::global_control::max_allowed_parallelism, 1);
       device = embree().rtcNewDevice(nullptr);
       auto count = [](void* user, ssize_t size, bool) {
         static_cast<Impl*>(user)->bytes.fetch_add(size, std::memory_order_relaxed);
@@ -30,6 +34,8 @@ struct RayDevice::Impl {
     return device;
   }
 
+  bool alone = false;
+  std::optional<tbb::global_control> one_thread;
   std::once_flag made;
   RTCDevice device = nullptr;
   std::string problem;
@@ -39,7 +45,7 @@ struct RayDevice::Impl {
 /// The scene of what RayDevice::build() made.
 RTCScene scene_of(const FaceScene* faces);
 
-/// Builds run on all processors; while this thread waits for them it must not take up other work of the
+/// Builds may run on several threads; while this thread waits for them it must not take up other work of the
 /// renderer, which could wait for what is being built here.
 void commit_scene(RTCScene scene);
 

@@ -34,7 +34,8 @@ public:
 
 class RayDevice {
 public:
-  RayDevice();
+  /// `alone`: builds run on the thread that wants them only, else on as many as the program may use.
+  explicit RayDevice(bool alone = false);
   ~RayDevice();
   RayDevice(const RayDevice&) = delete;
   RayDevice& operator=(const RayDevice&) = delete;

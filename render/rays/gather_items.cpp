@@ -405,7 +405,7 @@ void RayGeometry::Gatherer::add_solid(const std::shared_ptr<const SolidTree>& tr
 
 RayGeometry::RayGeometry(const Scene& scene, const Camera& camera, Displacer* displacer,
                          RayGeometrySettings settings)
-    : scene_(scene), displacer_(displacer), settings_(settings) {
+    : scene_(scene), displacer_(displacer), settings_(settings), device_(settings.alone) {
   Gatherer(*this, camera).run();
   std::vector<WorldItem> world;
   for (const auto& item : items_) {

@@ -33,6 +33,7 @@ struct RayGeometrySettings {
   /// Gathered in one item, about. Rays are fastest where one item has all; they come to many items late, or
   /// never.
   size_t item_faces = size_t{1} << 20;
+  bool alone = false;   ///< one thread does all (RayDevice)
   bool photons = false; ///< specular rays are photons: they see what Attribute "visibility" shows to these
 };
 

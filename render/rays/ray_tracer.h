@@ -29,6 +29,8 @@ public:
 
   /// Photon maps that diffuse rays take light from; null: none. They must outlive this.
   void set_photon_maps(PhotonMaps* maps) { hits_.set_photon_maps(maps); }
+  /// Before the first ray: all rays come from one thread, which has the processors to itself.
+  void set_alone() { geometry_settings_.alone = true; }
   /// Before the first ray: specular rays are photons, by what they see.
   void show_to_photons() { geometry_settings_.photons = true; }
 
