@@ -47,6 +47,7 @@ ALLOWED = {
                "render/hider/quad_hits", "render/hider/quad_paint", "render/hider/window_weights", "render/display/quantize_row", "render/rays/hemisphere_aim",
                "render/texture/latlong", "render/texture/shadow_map", "render/texture/texture_filter", "render/texture/wide_block"],
     # Compiled once for each SIMD target.
+    "render/display/quantize_row": ["render", "public", "slvm/wide/targets"],
     "render/hider/quad_hits": ["render", "public", "slvm/wide/targets"],
     "render/hider/quad_paint": ["render", "public", "slvm/wide/targets"],
     "render/hider/window_weights": ["render", "public", "slvm/wide/targets"],

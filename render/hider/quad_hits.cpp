@@ -163,6 +163,7 @@ size_t find_moving(const MovingQuad& q, bool both, const SampleField& field, con
   for_window(field.width, window, [&](const auto& rows, M in_window) HWY_ATTR {
     finder.look({rows.load(field.x), rows.load(field.y)}, in_window, [&](WideSample& sample) HWY_ATTR {
       sample.time = rows.load(field.time);
+      sample.shift = {hn::Zero(kWide), hn::Zero(kWide)};
       if (field.lens_x) sample.shift = {rows.load(field.lens_x), rows.load(field.lens_y)};
       sample.numbers = numbers(rows);
     });

@@ -1,4 +1,4 @@
-// Modules of Anemone itself: shared libraries that wrap what takes long to load and is seldom needed.
+// Modules of Anemone itself: shared libraries that wrap what takes long to load and is seldom needed. PUBLIC.
 #pragma once
 
 #include <string>

@@ -294,7 +294,8 @@ TEST_F(SlrenderTest, old_scenes_render_with_warnings) {
 }
 
 TEST_F(SlrenderTest, a_picture_larger_than_memory_is_not_begun) {
-  file("vast.rib", "Display \"vast.tif\" \"tiff\" \"rgb\" Format 65536 65536 1 WorldBegin WorldEnd");
+  file("vast.rib", "Display \"vast.tif\" \"tiff\" \"rgbaz\" Display \"+n.tif\" \"tiff\" \"N\" "
+                   "Format 65536 65536 1 WorldBegin WorldEnd");
   Outcome o = run("vast.rib");
   EXPECT_EQ(o.status, 1);
   EXPECT_THAT(o.text,
