@@ -42,6 +42,7 @@ public:
         pattern_({options_.xsamples, options_.ysamples, options_.jitter}, false, false),
         content_(camera_, layout_, split_, settings.make_content) {
     sampling_ = SamplingSettings::from(options_, settings.aovs);
+    sampling_.tile = pattern_.tile();
     for (const PrimitiveList::Run& run : scene.primitives.runs()) {
       sampling_.moving = sampling_.moving || run.moves();
       sampling_.size.levels = sampling_.size.levels || !run.state->level.whole();

@@ -38,7 +38,7 @@ PixelRect with_margins(const PixelRect& r, const ReconstructionSettings& s) {
 } // namespace
 
 SampleBuffer::SampleBuffer(const SamplingSettings& settings)
-    : settings_(settings), pattern_(settings.size, settings.moving, settings.lens != nullptr),
+    : settings_(settings), pattern_(settings.size, settings.moving, settings.lens != nullptr, settings.tile),
       reconstructor_(settings.reconstruction, settings.size),
       density_(static_cast<float>(settings.size.xsamples), static_cast<float>(settings.size.ysamples)),
       layers_(settings.layers()), aovs_(settings.aov_floats()) {

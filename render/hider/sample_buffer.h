@@ -29,7 +29,8 @@ struct SamplingSettings {
   const Camera* camera = nullptr; ///< for clipping_planes
   std::vector<ClippingPlane> clipping_planes;
   const DepthMask* mask = nullptr;
-  Vec2 mask_scale{1.0f}; ///< from raster to parts of the frame
+  Vec2 mask_scale{1.0f};                  ///< from raster to parts of the frame
+  std::shared_ptr<const JitterTile> tile; ///< null: each buffer makes its own
 
   static SamplingSettings from(const Options&, const std::vector<AovChannel>&);
   size_t aov_floats() const { return reconstruction.aov_floats(); }

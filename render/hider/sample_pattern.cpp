@@ -36,24 +36,29 @@ Vec2 lens_cell_size(const SampleGridSize& size) {
 
 } // namespace
 
-SamplePattern::SamplePattern(const SampleGridSize& size, bool timed, bool lens)
-    : size_(size), timed_(timed || lens), with_lens_(lens), strata_(size.xsamples * size.ysamples) {
-  make_tile();
-  if (lens) make_lens_boxes();
-}
-
-void SamplePattern::make_tile() {
+JitterTile::JitterTile(const SampleGridSize& size) {
   // Too large for the eye to see it repeat, small enough for a cache.
   constexpr int kPixels = 64, kSamples = 256;
-  if (size_.jitter)
-    for (period_ = kPixels; period_ > 1 && period_ * std::max(size_.xsamples, size_.ysamples) > kSamples;)
-      period_ /= 2;
-  for (int j = 0; j < period_ * size_.ysamples; ++j)
-    for (int i = 0; i < period_ * size_.xsamples; ++i) {
-      uint64_t h = hash_of(i, j, kJitter);
-      jitter_x_.push_back(size_.jitter ? upper_unit(h) : 0.5f);
-      jitter_y_.push_back(size_.jitter ? lower_unit(h) : 0.5f);
+  if (size.jitter)
+    for (period = kPixels; period > 1 && period * std::max(size.xsamples, size.ysamples) > kSamples;)
+      period /= 2;
+  const int columns = period * size.xsamples, rows = period * size.ysamples;
+  x.assign(static_cast<size_t>(columns) * static_cast<size_t>(rows), 0.5f);
+  y = x;
+  for (int j = 0, k = 0; size.jitter && j < rows; ++j)
+    for (int i = 0; i < columns; ++i, ++k) {
+      const uint64_t h = hash_of(i, j, kJitter);
+      x[static_cast<size_t>(k)] = upper_unit(h);
+      y[static_cast<size_t>(k)] = lower_unit(h);
     }
+}
+
+SamplePattern::SamplePattern(const SampleGridSize& size, bool timed, bool lens,
+                             std::shared_ptr<const JitterTile> tile)
+    : size_(size), timed_(timed || lens), with_lens_(lens), tile_(std::move(tile)),
+      strata_(size.xsamples * size.ysamples) {
+  if (!tile_) tile_ = std::make_shared<const JitterTile>(size);
+  if (lens) make_lens_boxes();
 }
 
 namespace {
@@ -67,12 +72,12 @@ int wrapped(int i, int size) {
 } // namespace
 
 void SamplePattern::jitter(std::span<float> x, std::span<float> y, int column, int row) const {
-  const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
+  const int columns = period() * size_.xsamples, rows = period() * size_.ysamples;
   const auto first = static_cast<size_t>(wrapped(row, rows) * columns);
   int at = wrapped(column, columns);
   for (size_t k = 0; k < x.size(); ++k) {
-    x[k] = jitter_x_[first + static_cast<size_t>(at)];
-    y[k] = jitter_y_[first + static_cast<size_t>(at)];
+    x[k] = tile_->x[first + static_cast<size_t>(at)];
+    y[k] = tile_->y[first + static_cast<size_t>(at)];
     at += size_.xsamples;
     if (at >= columns) at -= columns;
   }
@@ -91,7 +96,7 @@ bool SamplePattern::may_have(Vec2 low, Vec2 high) const {
     const int cut = static_cast<int>(v);
     return cut - (v < static_cast<float>(cut));
   };
-  const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
+  const int columns = period() * size_.xsamples, rows = period() * size_.ysamples;
   const int first_i = floor(low.x), first_j = floor(low.y);
   const int first_column = wrapped(first_i, columns), last_i = floor(high.x), last_j = floor(high.y);
   int found = 0; // branches would go one way as often as the other
@@ -100,7 +105,7 @@ bool SamplePattern::may_have(Vec2 low, Vec2 high) const {
     for (int i = first_i, column = first_column; i <= last_i;
          ++i, column = column + 1 < columns ? column + 1 : 0) {
       const auto at = static_cast<size_t>(row * columns + column);
-      const float x = static_cast<float>(i) + jitter_x_[at], y = y0 + jitter_y_[at];
+      const float x = static_cast<float>(i) + tile_->x[at], y = y0 + tile_->y[at];
       found |= int{x >= low.x} & int{x <= high.x} & int{y >= low.y} & int{y <= high.y};
     }
   }
@@ -115,7 +120,7 @@ void SamplePattern::cover(PixelRect area) {
   x_.resize(count_ + kPadding);
   y_.resize(count_ + kPadding);
   auto xs = static_cast<float>(size_.xsamples), ys = static_cast<float>(size_.ysamples);
-  const int columns = period_ * size_.xsamples, rows = period_ * size_.ysamples;
+  const int columns = period() * size_.xsamples, rows = period() * size_.ysamples;
   const int x0 = area.x0 * size_.xsamples, y0 = area.y0 * size_.ysamples;
   float *to_x = x_.data(), *to_y = y_.data();
   for (int j = 0; j < height_; ++j) {
@@ -124,7 +129,7 @@ void SamplePattern::cover(PixelRect area) {
     for (int i = 0; i < width_;) {
       // As far as the tile goes on without a break.
       const int first = wrapped(x0 + i, columns), count = std::min(columns - first, width_ - i);
-      const float *dx = jitter_x_.data() + row + first, *dy = jitter_y_.data() + row + first;
+      const float *dx = tile_->x.data() + row + first, *dy = tile_->y.data() + row + first;
       for (int k = 0; k < count; ++k) {
         to_x[k] = (static_cast<float>(x0 + i + k) + dx[k]) / xs;
         to_y[k] = (y + dy[k]) / ys;

@@ -7,6 +7,7 @@
 #include "render/state/camera.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,19 +19,30 @@ struct SampleGridSize {
   bool levels = false; ///< samples have numbers for levels of detail
 };
 
+/// Where in their cells, [0, 1), the samples of a square of pixels lie, which repeats itself in the frame.
+struct JitterTile {
+  int period = 1;          ///< pixels a side: a power of two
+  std::vector<float> x, y; ///< in rows
+
+  explicit JitterTile(const SampleGridSize& size);
+};
+
 /// The n samples of a pixel share the shutter time and the lens: each stratum, 1/n of the time and 1/n of the
 /// lens, has exactly one sample of every pixel.
 class SamplePattern {
 public:
   static constexpr size_t kPadding = SampleField::kPadding;
 
-  /// `timed`: with times. `lens`: with lens points, too.
-  SamplePattern(const SampleGridSize& size, bool timed, bool lens);
+  /// `timed`: with times. `lens`: with lens points, too. `tile`: that of another pattern of this size; null:
+  /// it makes its own.
+  SamplePattern(const SampleGridSize& size, bool timed, bool lens,
+                std::shared_ptr<const JitterTile> tile = nullptr);
+  const std::shared_ptr<const JitterTile>& tile() const { return tile_; }
   /// From now on for this area.
   void cover(PixelRect area);
 
   /// The jitter of positions repeats itself every so many pixels in x and y: a power of two.
-  int period() const { return period_; }
+  int period() const { return tile_->period; }
   /// Where in their cells, [0, 1), samples of pixels beside each other lie: the first is in that column and
   /// row of the frame, the others follow at distances of a pixel.
   void jitter(std::span<float> x, std::span<float> y, int column, int row) const;
@@ -64,7 +76,6 @@ public:
 
 private:
   size_t pixels() const { return count_ / static_cast<size_t>(strata_); }
-  void make_tile();
   void make_lens_boxes();
   Vec2 lens_corner(size_t stratum) const;
   void add_strata(PixelRect area);
@@ -72,8 +83,8 @@ private:
 
   SampleGridSize size_;
   bool timed_, with_lens_;
-  int width_ = 0, height_ = 0, columns_ = 0, strata_, period_ = 1;
-  std::vector<float> jitter_x_, jitter_y_; ///< of the tile's samples, in rows
+  std::shared_ptr<const JitterTile> tile_;
+  int width_ = 0, height_ = 0, columns_ = 0, strata_;
   size_t count_ = 0;
   std::vector<float> x_, y_;
   std::vector<Vec2> lens_;
