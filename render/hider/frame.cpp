@@ -8,6 +8,7 @@
 #include "render/hider/frame.h"
 
 #include "render/hider/after_filter.h"
+#include "render/hider/bucket_shares.h"
 #include "render/hider/random.h"
 #include "render/hider/sample_buffer.h"
 #include "render/hider/task_batch.h"
@@ -100,7 +101,6 @@ private:
   BucketLayout layout_;
   std::vector<Bucket> buckets_;
   LazyContent content_;
-  std::atomic<size_t> next_bucket_{0};
   std::mutex progress_mutex_;
   size_t finished_buckets_ = 0, split_count_ = 0;
 };
@@ -116,14 +116,14 @@ Image FrameRenderer::run(FrameReport& report) {
   auto make = [&] {
     split_all();
     make_buckets();
-    // One task a thread, each taking buckets in scan order: that keeps the life of grids short.
-    for_all(workers.size(), [&](size_t w) {
+    const auto columns = static_cast<size_t>(layout_.columns);
+    BucketShares shares(columns, static_cast<size_t>(layout_.rows), workers.size());
+    for_all(workers.size(), [&](size_t w) { // one task a thread
       Worker& worker = workers[w];
-      for (size_t b; (b = next_bucket_.fetch_add(1)) < buckets_.size();) {
+      while (const std::optional<size_t> b = shares.next(w)) {
         if (!worker.tasks)
           worker.tasks.emplace(TaskSettings{options_, camera_, pattern_, settings_.aovs}, shading_);
-        auto columns = static_cast<size_t>(layout_.columns);
-        render_bucket(static_cast<int>(b % columns), static_cast<int>(b / columns), worker);
+        render_bucket(static_cast<int>(*b % columns), static_cast<int>(*b / columns), worker);
         report_progress();
       }
     });
