@@ -9,9 +9,10 @@ namespace {
 SubdivisionModule load() {
   SubdivisionModule module;
   using Fill = void (*)(SubdivisionModule*);
-  void* found = slvm::find_in_module(
-      "anemone_subdivision", "anemone_subdivision_module",
-      "without anemone_subdivision.so (OpenSubdiv) there are no SubdivisionMeshes", module.problem);
+  void* found = slvm::find_in_module("anemone_subdivision", "anemone_subdivision_module",
+                                     "without anemone_subdivision.so (OpenSubdiv), which belongs beside the "
+                                     "program, there are no subdivision meshes",
+                                     module.problem);
   if (found) reinterpret_cast<Fill>(found)(&module);
   return module;
 }

@@ -53,6 +53,27 @@ protected:
   std::vector<std::string> written_;
 };
 
+TEST_F(Display, only_channels_that_are_shown_are_made) {
+  auto shown = [](const std::string& requests) {
+    Rendered r = render_text(requests + " WorldBegin WorldEnd");
+    slvm::SourceManager sources;
+    slvm::Diagnostics diagnostics;
+    return shown_channels(r.scene.options, display_aovs(r.scene.options, diagnostics)).to_string();
+  };
+  // From the last channel to the first: z, alpha, Oi, Ci.
+  EXPECT_EQ(shown("Display \"a\" \"tiff\" \"rgb\""), "00000111");
+  EXPECT_EQ(shown("Display \"a\" \"tiff\" \"rgba\" Display \"+b\" \"zfile\" \"z\""), "11000111");
+  EXPECT_EQ(shown("Display \"a\" \"tiff\" \"N\""), "00000000");
+  EXPECT_EQ(shown("Display \"a\" \"null\" \"rgba\""), "00000000");
+  EXPECT_EQ(shown("Display \"a\" \"tiff\" \"z\" Imager \"background\""), "11111111");
+  const Image some({2, 3, 6, 5}, 2, Image::StandardChannels(0b10000001));
+  EXPECT_TRUE(some.has(Image::kCi) && some.has(Image::kZ) && some.has(Image::kAov + 1));
+  EXPECT_FALSE(some.has(Image::kCi + 1) || some.has(Image::kAlpha));
+  EXPECT_EQ(some.data.size(), 4u * 2u * 4u);
+  EXPECT_EQ(some.row(Image::kZ, 2, 3) - some.row(Image::kCi, 2, 3), 8);
+  EXPECT_EQ(some.row(Image::kAov, 3, 4) - some.row(Image::kZ, 2, 3), 8 + 5);
+}
+
 TEST_F(Display, png_is_eight_bit_and_keeps_the_crop_window) {
   EXPECT_EQ(write("Quantize \"rgba\" 255 0 255 0 Display \"" + path("a.png") + "\" \"png\" \"rgba\""), "");
   OIIO::ImageSpec spec;

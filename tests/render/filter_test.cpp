@@ -2,6 +2,7 @@
 #include "render/hider/filter.h"
 
 #include "render/display/quantize.h"
+#include "render/display/quantize_row.h"
 
 #include <gtest/gtest.h>
 
@@ -85,6 +86,25 @@ TEST(Quantize, dither_is_centred_and_repeatable) {
     sum += quantize(100.3f / 255, q, i % 173, i / 173, 0);
   EXPECT_NEAR(sum / 20000, 100.3, 0.02);
   EXPECT_EQ(quantize(0.4f, q, 5, 6, 1), quantize(0.4f, q, 5, 6, 1));
+}
+
+TEST(Quantize, rows_are_as_their_pixels) {
+  std::vector<float> values;
+  for (int i = 0; i < 77; ++i)
+    values.push_back(static_cast<float>(i % 19) / 14 - 0.1f);
+  values[3] = std::nanf("");
+  values[5] = kInfinity;
+  const size_t n = values.size();
+  std::vector<uint64_t> hashes(n);
+  std::vector<int> row(n);
+  for (const Quantization& q : {Quantization{255, 0, 255, 0.5f, true}, Quantization{65535, 0, 65535, 0, true},
+                                Quantization{100, -20, 300, 2, true, 20}})
+    for (int channel : {0, 2, 4, 9}) {
+      hash_row(-30, 12, Quantizer::group_of(channel), hashes);
+      quantize_row(q, channel, hashes, values.data(), row.data());
+      for (size_t i = 0; i < n; ++i)
+        EXPECT_EQ(row[i], quantize(values[i], q, static_cast<int>(i) - 30, 12, channel)) << i;
+    }
 }
 
 } // namespace

@@ -29,8 +29,8 @@ TEST_F(SlrenderTest, renders_a_file) {
   EXPECT_TRUE(exists("a.png"));
 }
 
-TEST_F(SlrenderTest, pictures_and_maps_need_no_openimageio) {
-  // A copy of the program without the module that holds the library.
+TEST_F(SlrenderTest, pictures_and_maps_need_no_modules) {
+  // A copy of the program without the modules that hold OpenImageIO and OpenSubdiv.
   fs::copy_file(SLRENDER_PROGRAM, directory_ / "alone");
   auto alone = [&](const std::string& rib) {
     file("a.rib", rib);
@@ -63,6 +63,22 @@ TEST_F(SlrenderTest, pictures_and_maps_need_no_openimageio) {
               HasSubstr("cannot read \"none.png\": there is no such file"));
   EXPECT_THAT(alone("Display \"a.exr\" \"openexr\" \"rgba\" " + scene),
               HasSubstr("without anemone_images.so (OpenImageIO) there are only TIFF and PNG files"));
+  EXPECT_THAT(
+      alone("Display \"s\" \"tiff\" \"rgb\" WorldBegin SubdivisionMesh \"catmull-clark\" [4] [0 1 2 3] "
+            "[] [] [] [] \"P\" [0 0 0 1 0 0 1 1 0 0 1 0] WorldEnd"),
+      HasSubstr("without anemone_subdivision.so (OpenSubdiv), which belongs beside the program, there "
+                "are no subdivision meshes"));
+}
+
+TEST_F(SlrenderTest, small_grid_sizes_count_as_64) {
+  auto grids = [&](int size) {
+    file("a.rib", fmt::format("Option \"limits\" \"gridsize\" [{}] {}", size, kScene));
+    const std::string text = run("-statistics a.rib").text;
+    const size_t at = text.find("grids");
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_EQ(grids(9), grids(64));
+  EXPECT_NE(grids(256), grids(64));
 }
 
 /// The same map again and again: what is there under its name is always the whole of it.
