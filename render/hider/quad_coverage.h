@@ -9,6 +9,7 @@
 
 #include "render/state/math.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -149,17 +150,30 @@ private:
   size_t first_[kRows];
 };
 
+/// For windows of so many columns and rows, less one each: the lanes that are in it.
+template <size_t kRows> struct WindowLanes {
+  static constexpr size_t kColumns = kLanes / kRows;
+  HWY_ALIGN int32_t lanes[kRows][kColumns][kLanes] = {};
+
+  constexpr WindowLanes() {
+    for (size_t rows = 0; rows < kRows; ++rows)
+      for (size_t columns = 0; columns < kColumns; ++columns)
+        for (size_t lane = 0; lane < kLanes; ++lane)
+          lanes[rows][columns][lane] = lane / kColumns <= rows && lane % kColumns <= columns ? -1 : 0;
+  }
+};
+template <size_t kRows> constexpr WindowLanes<kRows> kWindowLanes;
+
 /// Calls look(samples, lanes in the window) for the samples of a window of at most kLanes / kRows columns.
 template <size_t kRows, class Window, class Look>
 HWY_INLINE void for_rows(size_t width, const Window& window, Look&& look) {
-  constexpr auto kColumns = static_cast<int32_t>(kLanes / kRows);
-  const I lane = hn::Iota(kIndices, 0), column = hn::And(lane, hn::Set(kIndices, kColumns - 1));
-  const auto in_columns = hn::Lt(column, hn::Set(kIndices, static_cast<int32_t>(window.i1 - window.i0)));
-  for (size_t j = window.j0; j < window.j1; j += kRows) {
-    const size_t rows = window.j1 - j;
-    M in_window = hn::RebindMask(kWide, in_columns);
-    if (rows < kRows) in_window = hn::And(in_window, hn::FirstN(kWide, rows * kLanes / kRows));
-    look(SampleRows<kRows>(j * width + window.i0, rows, width), in_window);
+  const size_t columns = window.i1 - window.i0;
+  size_t first = window.j0 * width + window.i0;
+  for (size_t rows = window.j1 - window.j0;; rows -= kRows, first += kRows * width) {
+    const int32_t* lanes = kWindowLanes<kRows>.lanes[std::min(rows, kRows) - 1][columns - 1];
+    look(SampleRows<kRows>(first, rows, width),
+         hn::RebindMask(kWide, hn::MaskFromVec(hn::Load(kIndices, lanes))));
+    if (rows <= kRows) return;
   }
 }
 

@@ -46,9 +46,16 @@ HWY_INLINE WideWeights weights_in(const WideCoverage& in, M& seen) {
 
 /// One micropolygon's depths in all lanes: those of the plane of each of its triangles through the corner a.
 struct WideDepths {
-  V at_a, first_x, first_y, second_x, second_y;
-  V least, most; ///< of the corners: planes seen from their edges are steep
+  static constexpr size_t kNumbers = 7;
+  V at_a, first_x, first_y, second_x, second_y; ///< changes by pixel of the first and of the second
+  V least, most;                                ///< of the corners: planes seen from their edges are steep
 
+  /// From kNumbers in this order, kLanes apart.
+  HWY_INLINE explicit WideDepths(const float* numbers) {
+    size_t i = 0;
+    for (V* v : {&at_a, &first_x, &first_y, &second_x, &second_y, &least, &most})
+      *v = hn::Set(kWide, numbers[kLanes * i++]);
+  }
   HWY_INLINE V at(const WideCoverage& in) const {
     const V x = hn::IfThenElse(in.first, first_x, second_x), y = hn::IfThenElse(in.first, first_y, second_y);
     const V z = hn::Add(at_a, hn::Add(hn::Mul(x, in.from_a.x), hn::Mul(y, in.from_a.y)));
@@ -134,10 +141,8 @@ public:
     return {static_cast<size_t>(i0_[lane]), static_cast<size_t>(i1_[lane]), static_cast<size_t>(j0_[lane]),
             static_cast<size_t>(j1_[lane])};
   }
-  HWY_INLINE WideDepths depths(size_t lane) const {
-    auto all = [&](const float* values) HWY_ATTR { return hn::Set(kWide, values[lane]); };
-    return {all(z_), all(x1_), all(y1_), all(x2_), all(y2_), all(least_), all(most_)};
-  }
+  /// For WideDepths.
+  const float* depths(size_t lane) const { return depths_ + lane; }
 
 private:
   /// One component of the corners of each.
@@ -202,18 +207,15 @@ private:
     const V sum = hn::Add(hn::Add(hn::Add(first.x, first.y), hn::Add(second.x, second.y)), z.a);
     touching = hn::And(hn::And(touching, hn::Or(first.solid, second.solid)),
                        hn::Eq(hn::Sub(sum, sum), hn::Zero(kWide)));
-    hn::Store(first.x, kWide, x1_);
-    hn::Store(first.y, kWide, y1_);
-    hn::Store(second.x, kWide, x2_);
-    hn::Store(second.y, kWide, y2_);
-    hn::Store(z.a, kWide, z_);
-    hn::Store(z.least(), kWide, least_);
-    hn::Store(z.most(), kWide, most_);
+    float* out = depths_;
+    for (V v : {z.a, first.x, first.y, second.x, second.y, z.least(), z.most()}) {
+      hn::Store(v, kWide, out);
+      out += kLanes;
+    }
   }
 
   HWY_ALIGN int32_t i0_[kLanes], i1_[kLanes], j0_[kLanes], j1_[kLanes];
-  HWY_ALIGN float z_[kLanes], least_[kLanes], most_[kLanes];
-  HWY_ALIGN float x1_[kLanes], y1_[kLanes], x2_[kLanes], y2_[kLanes]; ///< changes of depth a pixel
+  HWY_ALIGN float depths_[WideDepths::kNumbers * kLanes];
   uint64_t touching_ = 0, clipped_ = 0;
 };
 
@@ -281,9 +283,10 @@ size_t paint_grid(const ShadedGrid& grid, std::span<const PaintedValues> values,
         }
         const WideOutline outline = outline_of(grid, k);
         const bool clipped = neighbours.clipped(lane);
+        const float* depths = neighbours.depths(lane);
         for_covered(outline, canvas.x, canvas.y, width, neighbours.window(lane),
                     [&](const auto& samples, const WideCoverage& in)
-                        HWY_ATTR { painter.paint(samples, neighbours.depths(lane), in, k, clipped); });
+                        HWY_ATTR { painter.paint(samples, WideDepths(depths), in, k, clipped); });
       }
     }
   }
