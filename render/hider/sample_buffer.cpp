@@ -87,12 +87,13 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
       m += nu - 1;
       continue;
     }
+    if (moving) reach_.find_row(grid, j);
     for (size_t i = 0; i + 1 < nu; ++i, ++m) {
       if (grid.hidden[m] == ShadedGrid::kNotDrawn) continue;
-      if (moving)
-        draw_moving(grid, j * nu + i);
-      else
+      if (!moving)
         draw_micropolygon(grid, j * nu + i);
+      else if (settings_.lens || reach_.touches(i, covered_))
+        draw_moving(grid, j * nu + i, reach_.box(i));
     }
   }
 }
@@ -246,17 +247,9 @@ bool stays_near(const Box& box) {
 
 /// For each stratum of time and lens only the pixels are looked at that the micropolygon reaches in it, and
 /// there the one sample that belongs to the stratum.
-void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
-  auto nu = static_cast<size_t>(grid.nu);
-  const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
-  Box everywhere;
-  for (size_t c : corner) {
-    everywhere.add(grid.position[c]);
-    for (const Vec3Planes& later : grid.later)
-      everywhere.add(later[c]);
-  }
-  const Box unblurred = everywhere;
-  const Defocus blur = defocus(everywhere);
+void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k, const Box& reach) {
+  Box everywhere = reach;
+  const Defocus blur = defocus(reach);
   if (settings_.lens) add_lens(lens_box_, blur, everywhere);
   SampleWindow window;
   if (!find_window(Vec2(everywhere.min) - origin_ - kSlack, Vec2(everywhere.max) - origin_ + kSlack,
@@ -266,6 +259,8 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
     draw_slow(grid, k);
     return;
   }
+  const auto nu = static_cast<size_t>(grid.nu);
+  const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
   if (grid.times.empty()) {
     MovingQuad quad;
     quad.t0 = 0;
@@ -273,7 +268,7 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k) {
     for (size_t c = 0; c < 4; ++c)
       quad.from[c] = quad.to[c] = grid.position[corner[c]];
     for (int s = 0; s < pattern_.strata(); ++s) {
-      Box box = unblurred;
+      Box box = reach;
       add_lens(lens_boxes_[static_cast<size_t>(s)], blur, box);
       draw_in_box(grid, k, box, quad, s);
     }

@@ -4,6 +4,7 @@
 
 #include "render/hider/depth_mask.h"
 #include "render/hider/image.h"
+#include "render/hider/moving_reach.h"
 #include "render/hider/quad_hits.h"
 #include "render/hider/quad_paint.h"
 #include "render/hider/sample_layers.h"
@@ -64,7 +65,7 @@ private:
   bool can_paint(const ShadedGrid& grid) const;
   void paint_grid(const ShadedGrid& grid);
   void draw_micropolygon(const ShadedGrid& grid, size_t k);
-  void draw_moving(const ShadedGrid& grid, size_t k);
+  void draw_moving(const ShadedGrid& grid, size_t k, const Box& reach);
   void draw_slow(const ShadedGrid& grid, size_t k);
   void draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum);
   void draw_in_box(const ShadedGrid& grid, size_t k, const Box& box, MovingQuad& quad, int stratum);
@@ -103,6 +104,7 @@ private:
   std::vector<size_t> not_painted_; ///< micropolygons of a grid
   /// Each sample's point of the lens, as raster shift of what has a defocus of 1.
   std::vector<float> lens_x_, lens_y_;
+  MovingReach reach_;
   StrataSamples strata_;
   bool strata_known_ = false;              ///< of this bucket
   std::vector<Box> lens_boxes_;            ///< the same, of each stratum
