@@ -2,6 +2,8 @@
 
 #include "render/hider/random.h"
 
+#include <algorithm>
+
 namespace render {
 
 AfterFilter::AfterFilter(const Options& options, std::span<const AovChannel> aovs)
@@ -61,34 +63,41 @@ void AfterFilter::run_imager(const PixelRect& rect, const Picture& picture, Imag
   grid.id = hash_of(rect.x0, rect.y0, kImager);
   grid.user = nullptr;
   using slvm::Global;
-  float* planes[6] = {grid.varying(Global::kP),     grid.varying(Global::kCi), grid.varying(Global::kOi),
-                      grid.varying(Global::kalpha), grid.varying(Global::ks),  grid.varying(Global::kt)};
-  size_t pitch = grid.pitch(), k = 0;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x, ++k) {
-      planes[0][k] = static_cast<float>(x) + 0.5f;
-      planes[0][pitch + k] = static_cast<float>(y) + 0.5f;
-      planes[0][2 * pitch + k] = 0;
-      for (int c = 0; c < 3; ++c) {
-        planes[1][static_cast<size_t>(c) * pitch + k] = image.at(picture.Ci + c, x, y);
-        planes[2][static_cast<size_t>(c) * pitch + k] = image.at(picture.Oi + c, x, y);
-      }
-      planes[3][k] = image.at(picture.alpha, x, y);
-      planes[4][k] = planes[0][k] / static_cast<float>(options_.xres);
-      planes[5][k] = planes[0][pitch + k] / static_cast<float>(options_.yres);
+  float *P = grid.varying(Global::kP), *s = grid.varying(Global::ks), *t = grid.varying(Global::kt);
+  float *Ci = grid.varying(Global::kCi), *Oi = grid.varying(Global::kOi),
+        *alpha = grid.varying(Global::kalpha);
+  const auto width = static_cast<size_t>(rect.width()), pitch = grid.pitch();
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    const size_t row = static_cast<size_t>(y - rect.y0) * width;
+    for (size_t k = 0; k < width; ++k) {
+      P[row + k] = static_cast<float>(rect.x0) + static_cast<float>(k) + 0.5f;
+      P[pitch + row + k] = static_cast<float>(y) + 0.5f;
+      P[2 * pitch + row + k] = 0;
+      s[row + k] = P[row + k] / static_cast<float>(options_.xres);
+      t[row + k] = P[pitch + row + k] / static_cast<float>(options_.yres);
     }
+    auto take = [&](int channel, float* to) { std::copy_n(image.row(channel, rect.x0, y), width, to + row); };
+    for (size_t c = 0; c < 3; ++c) {
+      take(picture.Ci + static_cast<int>(c), Ci + c * pitch);
+      take(picture.Oi + static_cast<int>(c), Oi + c * pitch);
+    }
+    take(picture.alpha, alpha);
+  }
   shader.image(*options_.imager, grid);
-  const slvm::Planes &Ci = grid.variable(Global::kCi), &Oi = grid.variable(Global::kOi),
-                     &alpha = grid.variable(Global::kalpha);
-  k = 0;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x, ++k) {
-      for (int c = 0; c < 3; ++c) {
-        *image.row(picture.Ci + c, x, y) = Ci.get(static_cast<size_t>(c), k);
-        *image.row(picture.Oi + c, x, y) = Oi.get(static_cast<size_t>(c), k);
-      }
-      *image.row(picture.alpha, x, y) = alpha.get(0, k);
+  auto give = [&](Global g, size_t component, int channel) {
+    const slvm::Planes& from = grid.variable(g);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+      const size_t row = static_cast<size_t>(y - rect.y0) * width;
+      float* to = image.row(channel, rect.x0, y);
+      for (size_t k = 0; k < width; ++k)
+        to[k] = from.get(component, row + k);
     }
+  };
+  for (size_t c = 0; c < 3; ++c) {
+    give(Global::kCi, c, picture.Ci + static_cast<int>(c));
+    give(Global::kOi, c, picture.Oi + static_cast<int>(c));
+  }
+  give(Global::kalpha, 0, picture.alpha);
 }
 
 } // namespace render
