@@ -63,7 +63,7 @@ tidy:
 	@.ci/install-deps clang-tidy
 	$(call build,relassert)
 	@git ls-files 'slc/*.cpp' 'slvm/*.cpp' 'render/*.cpp' | grep -v '^slvm/kernels/' | \
-	  xargs -P $(JOBS) -n 4 clang-tidy -p build/relassert --quiet
+	  xargs -P $(JOBS) -n 4 clang-tidy -p build/relassert --quiet --extra-arg=-Wno-unknown-warning-option
 
 PREFIX ?= /usr/local
 install:

@@ -251,13 +251,15 @@ std::vector<AovChannel> display_aovs(const Options& options, slvm::Diagnostics& 
     }
   }
   std::vector<AovChannel> list = out.take();
-  for (const auto& [name, q] : options.channel_quantization)
+  for (const auto& quantization : options.channel_quantization) {
+    const std::string& name = quantization.first;
     if (std::none_of(list.begin(), list.end(), [&](const AovChannel& a) { return a.name == name; }))
       diagnostics.warning(
           {}, "display",
           fmt::format("Quantize \"{0}\" has no effect: no Display shows a channel \"{0}\"; known "
                       "for all are \"rgba\" and \"z\"",
                       name));
+  }
   return list;
 }
 

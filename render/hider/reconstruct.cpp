@@ -25,7 +25,7 @@ SampleSpan filled(const BucketSamples& samples, size_t j0, size_t j1) {
 
 Reconstructor::Reconstructor(const ReconstructionSettings& settings, const SampleGridSize& size)
     : settings_(settings), size_(size), columns_(size), depths_(settings.depth_channels()) {
-  Plan& standard = plans_.emplace_back(settings_.filter, WindowWeights(settings_.filter, size_));
+  Plan& standard = plans_.emplace_back(Plan{settings_.filter, WindowWeights(settings_.filter, size_), {}});
   // Depths are not blended.
   for (size_t c = 0; c < Image::kZ; ++c)
     if (settings_.shown[c]) standard.terms.push_back({c, c});

@@ -173,10 +173,8 @@ void SamplePattern::add_levels(PixelRect area) {
 }
 
 Vec2 SamplePattern::lens_corner(size_t stratum) const {
-  int cell = lens_cells_[stratum];
-  return Vec2(static_cast<float>(cell % size_.xsamples), static_cast<float>(cell / size_.xsamples)) *
-             lens_cell_size(size_) -
-         Vec2(1.0f);
+  const int cell = lens_cells_[stratum], column = cell % size_.xsamples, row = cell / size_.xsamples;
+  return Vec2(static_cast<float>(column), static_cast<float>(row)) * lens_cell_size(size_) - Vec2(1.0f);
 }
 
 void SamplePattern::make_lens_boxes() {

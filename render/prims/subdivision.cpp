@@ -34,8 +34,9 @@ struct FacePart {
       return;
     }
     if (domain.kind == FaceDomain::Kind::kSubFaces) {
-      out[0] = quarter % domain.columns + 0.5 * u;
-      out[1] = quarter / domain.columns + 0.5 * v;
+      const int row = quarter / domain.columns, column = quarter % domain.columns;
+      out[0] = column + 0.5 * u;
+      out[1] = row + 0.5 * v;
       return;
     }
     // Corner `quarter` of the unit square, turned so that u runs along the face's own edge.

@@ -40,7 +40,6 @@ private:
   bool parse_floats(const ArgumentInfo& info, std::vector<float>& out);
   template <class ParseOne> bool parse_array(const ArgumentInfo& info, bool bare_ok, ParseOne parse_one);
   bool parse_params();
-  bool data_follows() const;
   bool read_data();
   bool parse_value(Param& param);
 
@@ -277,7 +276,7 @@ bool Parser::parse_params() {
     take();
     if (!parse_value(param)) return false;
   }
-  if (token_.kind == TokenKind::kWord || token_.kind == TokenKind::kEnd || data_follows()) return true;
+  if (token_.kind == TokenKind::kWord || token_.kind == TokenKind::kEnd || call_.holds_data()) return true;
   // A missing argument shifts the rest: Display "a.tif" "rgba" "compression" ["lzw"] has no type.
   if (token_.kind == TokenKind::kOpen && call_.params.empty() && !info_->arguments.empty() &&
       info_->arguments.back().kind == ArgumentKind::kString && call_.arguments.back().present)
@@ -287,18 +286,9 @@ bool Parser::parse_params() {
   return fail_expected("a token string or the next request");
 }
 
-/// Whether this is an archive of another type, or encoded: its text is no concern of this parser (multipart
-/// RIB).
-bool Parser::data_follows() const {
-  if (call_.id != RequestId::kArchiveBegin) return false;
-  const Param* type = call_.find_param("Content-Type");
-  bool rib = !type || !type->is_string() || type->strings[0] == "application/rib";
-  return !rib || call_.find_param("Content-Transfer-Encoding");
-}
-
 bool Parser::read_data() {
   call_.data.clear();
-  if (!data_follows()) return true;
+  if (!call_.holds_data()) return true;
   bool complete = tokens_.read_data(call_.text(0), call_.data);
   take();
   return complete ||

@@ -131,4 +131,11 @@ const Param* RequestCall::find_param(std::string_view token) const {
   return it == params.end() ? nullptr : &*it;
 }
 
+bool RequestCall::holds_data() const {
+  if (id != RequestId::kArchiveBegin) return false;
+  const Param* type = find_param("Content-Type");
+  const bool rib = !type || !type->is_string() || type->strings[0] == "application/rib";
+  return !rib || find_param("Content-Transfer-Encoding");
+}
+
 } // namespace render

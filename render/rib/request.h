@@ -99,6 +99,8 @@ struct RequestCall {
   std::span<const int> integers(int i) const { return arguments[i].ints; }
   std::span<const std::string> texts(int i) const { return arguments[i].strings; }
   const Param* find_param(std::string_view token) const;
+  /// ArchiveBegin of another type, or encoded (multipart RIB): what follows is no concern of parsers of RIB.
+  bool holds_data() const;
 };
 
 } // namespace render

@@ -76,10 +76,10 @@ void RibWriter::request(const RequestCall& call) {
   format_.binary = binary;
   end_line();
   if (opens(call.id) || is_branch(call.id)) ++depth_;
-  if (call.data.empty()) return;
+  if (!call.holds_data()) return;
   // Content that is no RIB stands as it is, up to a line with the archive's end.
   out_(call.data);
-  if (!call.data.ends_with('\n')) out_("\n");
+  if (!call.data.empty() && !call.data.ends_with('\n')) out_("\n");
   data_name_ = call.text(0);
 }
 

@@ -291,8 +291,9 @@ void Interpreter::option(const RequestCall& call) {
       error(call, fmt::format("\"codes\" is \"rispec\" or \"note31\", found \"{}\"", value.strings[0]));
       continue;
     }
-    options_.named[category + ":" + name] = value;
-    if (in_world_) scene_.options.named[category + ":" + name] = value;
+    const std::string full = fmt::format("{}:{}", category, name);
+    options_.named[full] = value;
+    if (in_world_) scene_.options.named[full] = value;
     if (category == "searchpath" && !value.strings.empty())
       search_path(name, value);
     else if (category == "limits" && !value.numbers.empty())

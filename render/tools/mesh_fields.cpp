@@ -194,12 +194,13 @@ bool MeshFields::add_fields(RequestCall& call) {
         call.where, "",
         fmt::format("{} of {} vertices hang together with none of the base: they get 1", n, mesh->size()));
   normalise(from_tips);
-  for (auto [name, field] :
+  for (const auto& pair :
        {std::pair(&settings_.base_name, &from_base), std::pair(&settings_.tip_name, &from_tips)}) {
-    std::erase_if(call.params, [&](const Param& p) { return variable_name(p.token) == *name; });
+    const std::string& name = *pair.first;
+    std::erase_if(call.params, [&](const Param& p) { return variable_name(p.token) == name; });
     Param p;
-    p.token = (subdivision ? "vertex float " : "varying float ") + *name;
-    p.numbers = std::move(*field);
+    p.token = (subdivision ? "vertex float " : "varying float ") + name;
+    p.numbers = std::move(*pair.second);
     p.integers = false;
     call.params.push_back(std::move(p));
   }

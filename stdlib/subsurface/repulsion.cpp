@@ -39,8 +39,12 @@ class Index {
 public:
   Index(std::span<const SurfacePoint> points, float row_height) : height_(row_height) {
     entries_.reserve(points.size());
-    for (uint32_t i = 0; i < points.size(); ++i)
-      entries_.push_back({points[i].triangle, row_of(points[i].at.y), points[i].at, i});
+    for (uint32_t i = 0; i < points.size(); ++i) {
+      // Places in triangles without extent may be no numbers, which have no order.
+      Vec2 at = points[i].at;
+      if (!std::isfinite(at.x + at.y)) at = {0, 0};
+      entries_.push_back({points[i].triangle, row_of(at.y), at, i});
+    }
     std::sort(entries_.begin(), entries_.end());
   }
 
@@ -66,7 +70,11 @@ private:
     }
   };
 
-  int row_of(float y) const { return static_cast<int>(std::clamp(std::floor(y / height_), -1e9f, 1e9f)); }
+  /// What is not a number goes to the first row.
+  int row_of(float y) const {
+    const float row = std::floor(y / height_);
+    return static_cast<int>(std::min(std::max(-1e9f, row), 1e9f));
+  }
 
   float height_;
   std::vector<Entry> entries_;

@@ -130,6 +130,13 @@ TEST(RibWriter, content_that_is_no_rib_is_kept) {
   CallList back = parse_calls(rewritten(text, {true, 0}));
   ASSERT_EQ(back.calls.size(), 4u);
   EXPECT_EQ(back.calls[1].data, "puts [expr {1 + 2}]\n  \"Sphere\n");
+  // Nor is none at all: its end is looked for as text, too.
+  text = "##RenderMan RIB\nversion 3.04\nArchiveBegin \"x\" \"Content-Type\" [\"\"]\nArchiveEnd \"x\"\nSides "
+         "1\n";
+  EXPECT_EQ(rewritten(text), text);
+  back = parse_calls(rewritten(text, {true, 0}));
+  ASSERT_EQ(back.calls.size(), 4u);
+  EXPECT_EQ(back.calls[1].data, "");
 }
 
 TEST(RibWriter, numbers) {
