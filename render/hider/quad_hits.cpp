@@ -87,7 +87,6 @@ size_t find_still(const Vec3 (&p)[4], bool both, const SampleField& field, const
 
 /// Samples in time, and what the lens does to each of them.
 struct WideSample {
-  WideVec2 at;
   V time;
   WideVec2 shift; ///< of what has a defocus of 1
   I numbers;
@@ -108,12 +107,11 @@ public:
   }
   size_t count() const { return finder_.count(); }
 
-  /// `samples` fetches them, where they may be in it.
+  /// For samples at `at`; `fetch` gets the rest of them, where they may be in it.
   template <class Fetch> HWY_INLINE void look(const WideVec2& at, M looked_at, Fetch&& fetch) {
     looked_at = hn::And(box_.contains(at), looked_at);
     if (hn::AllFalse(kWide, looked_at)) return;
     WideSample sample;
-    sample.at = at;
     fetch(sample);
     const V t0 = hn::Set(kWide, q_.t0);
     looked_at =

@@ -90,10 +90,13 @@ void SampleBuffer::draw(const ShadedGrid& grid) {
     if (moving) reach_.find_row(grid, j);
     for (size_t i = 0; i + 1 < nu; ++i, ++m) {
       if (grid.hidden[m] == ShadedGrid::kNotDrawn) continue;
-      if (!moving)
+      if (!moving) {
         draw_micropolygon(grid, j * nu + i);
-      else if (settings_.lens || reach_.touches(i, covered_))
-        draw_moving(grid, j * nu + i, reach_.box(i));
+        continue;
+      }
+      const Box reach = reach_.box(i);
+      if (settings_.lens || RasterBounds{Vec2(reach.min), Vec2(reach.max)}.touches(covered_))
+        draw_moving(grid, j * nu + i, reach);
     }
   }
 }
@@ -256,7 +259,7 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k, const Box& reac
                    covered_.width(), covered_.height(), window))
     return;
   if (stays_near(everywhere)) {
-    draw_slow(grid, k);
+    draw_slow(grid, k, reach);
     return;
   }
   const auto nu = static_cast<size_t>(grid.nu);
@@ -295,24 +298,37 @@ void SampleBuffer::draw_moving(const ShadedGrid& grid, size_t k, const Box& reac
   }
 }
 
+namespace {
+
+/// Around all of it, as the lens has not blurred it.
+Box unblurred(const MovingQuad& quad) {
+  Box box;
+  for (size_t c = 0; c < 4; ++c) {
+    box.add(quad.from[c]);
+    box.add(quad.to[c]);
+  }
+  return box;
+}
+
+} // namespace
+
 /// What stays within a few pixels: all their samples are looked at together.
-void SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k) {
+void SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k, const Box& reach) {
   const auto nu = static_cast<size_t>(grid.nu);
   const size_t corner[4] = {k, k + 1, k + nu, k + nu + 1};
   MovingQuad quad;
   for (size_t c = 0; c < 4; ++c)
     quad.to[c] = grid.position[corner[c]];
   quad.t1 = 0;
-  for (size_t segment = 0; segment < std::max<size_t>(grid.later.size(), 1); ++segment) {
+  const size_t segments = std::max<size_t>(grid.later.size(), 1);
+  for (size_t segment = 0; segment < segments; ++segment) {
     quad.t0 = quad.t1;
     quad.t1 = grid.later.empty() ? 1 : grid.times[segment + 1];
-    Box box;
     for (size_t c = 0; c < 4; ++c) {
       quad.from[c] = quad.to[c];
       if (!grid.later.empty()) quad.to[c] = grid.later[segment][corner[c]];
-      box.add(quad.from[c]);
-      box.add(quad.to[c]);
     }
+    Box box = segments > 1 ? unblurred(quad) : reach;
     if (settings_.lens) add_lens(lens_box_, defocus(box), box);
     quad.low = Vec2(box.min) - kSlack;
     quad.high = Vec2(box.max) + kSlack;
@@ -326,11 +342,7 @@ void SampleBuffer::draw_slow(const ShadedGrid& grid, size_t k) {
 }
 
 void SampleBuffer::draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum) {
-  Box box;
-  for (size_t c = 0; c < 4; ++c) {
-    box.add(quad.from[c]);
-    box.add(quad.to[c]);
-  }
+  Box box = unblurred(quad);
   if (settings_.lens) add_lens(lens_boxes_[static_cast<size_t>(stratum)], defocus(box), box);
   draw_in_box(grid, k, box, quad, stratum);
 }

@@ -66,7 +66,7 @@ private:
   void paint_grid(const ShadedGrid& grid);
   void draw_micropolygon(const ShadedGrid& grid, size_t k);
   void draw_moving(const ShadedGrid& grid, size_t k, const Box& reach);
-  void draw_slow(const ShadedGrid& grid, size_t k);
+  void draw_slow(const ShadedGrid& grid, size_t k, const Box& reach);
   void draw_segment(const ShadedGrid& grid, size_t k, MovingQuad& quad, int stratum);
   void draw_in_box(const ShadedGrid& grid, size_t k, const Box& box, MovingQuad& quad, int stratum);
   /// What the lens does to things between two depths: `shift`, of what has a defocus of 1, times these.

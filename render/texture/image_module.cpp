@@ -5,22 +5,10 @@
 
 namespace render {
 
-namespace {
-
-ImageModule load() {
-  ImageModule module;
-  using Fill = void (*)(ImageModule*);
-  void* found = slvm::find_in_module(
-      "anemone_images", "anemone_image_module",
-      "without anemone_images.so (OpenImageIO) there are only TIFF and PNG files", module.problem);
-  if (found) reinterpret_cast<Fill>(found)(&module);
-  return module;
-}
-
-} // namespace
-
 const ImageModule& image_module() {
-  static const ImageModule kModule = load();
+  static const ImageModule kModule = slvm::load_module<ImageModule>(
+      "anemone_images", "anemone_image_module",
+      "without anemone_images.so (OpenImageIO) there are only TIFF and PNG files");
   return kModule;
 }
 

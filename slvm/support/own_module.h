@@ -11,4 +11,13 @@ namespace slvm {
 void* find_in_module(const std::string& name, const char* entry, const std::string& without,
                      std::string& problem);
 
+/// The functions of the module, which `entry` fills in; unset when the table's `problem` says why.
+template <class Table>
+Table load_module(const std::string& name, const char* entry, const std::string& without) {
+  Table table;
+  if (void* fill = find_in_module(name, entry, without, table.problem))
+    reinterpret_cast<void (*)(Table*)>(fill)(&table);
+  return table;
+}
+
 } // namespace slvm
